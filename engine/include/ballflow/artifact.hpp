@@ -1,0 +1,83 @@
+// An artifact: an immutable bundle of named typed arrays and a small JSON summary; the only thing that
+// travels on edges. What is in memory is what is on disk is what crosses the plugin boundary.
+//
+// The file is in the safetensors layout:
+//   8 bytes   little-endian length N of the header
+//   N bytes   JSON header, padded with spaces so that the data starts at a multiple of 64:
+//             {"__metadata__":{"ballflow":"1","summary":"<canonical JSON>","type":"Balls","version":"1"},
+//              "centers":{"dtype":"F64","shape":[n,3],"data_offsets":[begin,end]}, ...}
+//   data      the arrays without holes, by element size (largest first), then by name; offsets count from
+//             the start of the data; little-endian, C order
+// The bytes are canonical: equal arrays, summary and type give equal bytes. The digest is their SHA-256.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ballflow/digest.hpp"
+#include "ballflow/plugin.h"
+
+namespace ballflow {
+
+std::size_t dtype_size(std::uint32_t dtype);        // 0 for an unknown dtype
+std::string_view dtype_name(std::uint32_t dtype);   // "f64", as in declarations
+std::uint32_t dtype_from_name(std::string_view name);  // 0 for an unknown name
+
+struct NamedArray {
+  std::string name;
+  std::uint32_t dtype = 0;  // bf_dtype
+  std::vector<std::uint64_t> shape;
+  const void* data = nullptr;
+
+  std::uint64_t elements() const;
+  std::uint64_t bytes() const;
+};
+
+class Artifact {
+ public:
+  /// Seals arrays: sorts them, writes the header, computes digest and checksum. `owner` keeps all data
+  /// alive. Throws Error when a name is not unique or a size overflows. `summary` is a JSON object; it is
+  /// rewritten in canonical form.
+  static std::shared_ptr<const Artifact> seal(std::string type, int version, std::vector<NamedArray> arrays,
+                                              std::string_view summary, std::shared_ptr<const void> owner);
+
+  /// Reads the layout above from memory that `owner` keeps alive. Any byte string may be given: throws
+  /// Error (code store) that says what is wrong with it. Verifies the structure, not the digest.
+  static std::shared_ptr<const Artifact> decode(std::span<const std::byte> file, std::shared_ptr<const void> owner);
+
+  /// Maps a file and decodes it.
+  static std::shared_ptr<const Artifact> map(const std::string& path);
+
+  const std::string& type() const { return type_; }
+  int version() const { return version_; }
+  const std::vector<NamedArray>& arrays() const { return arrays_; }
+  const NamedArray* find(std::string_view name) const;
+  const std::string& summary() const { return summary_; }  // canonical JSON object
+  const Digest& digest() const { return digest_; }          // computed on first use after decode
+  Checksum checksum() const { return checksum_; }
+  std::uint64_t file_size() const { return file_size_; }
+
+  /// The file as a list of pieces, to be written one after the other.
+  std::vector<std::span<const std::byte>> pieces() const;
+
+ private:
+  Artifact() = default;
+  std::string type_;
+  int version_ = 0;
+  std::vector<NamedArray> arrays_;
+  std::string summary_;
+  std::string header_;
+  mutable Digest digest_;
+  Checksum checksum_;
+  std::uint64_t file_size_ = 0;
+  std::shared_ptr<const void> owner_;
+};
+
+using ArtifactPtr = std::shared_ptr<const Artifact>;
+
+}  // namespace ballflow

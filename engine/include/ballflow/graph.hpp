@@ -1,0 +1,86 @@
+// A graph: text -> document (with positions) -> flat DAG.
+//
+//   {
+//     "doc": "One sentence.",
+//     "params": { "epsilon": { "kind": "number", "default": 0.3, "minimum": 0, "unit": "%", "doc": "..." } },
+//     "inputs": { "cover": { "type": "CoverState", "doc": "..." } },          // of a subgraph
+//     "nodes": {
+//       "sample": { "type": "Sample", "params": { "file": "${input}" } },
+//       "poles":  { "type": "VoronoiPoles", "inputs": { "points": "sample.points" } },
+//       "prune":  { "graph": "strategies/${strategy}.json", "inputs": { "cover": "matrix.cover" } }
+//     },
+//     "outputs": { "balls": "select.balls", "cover": { "from": "prune.cover", "doc": "..." } }
+//   }
+//
+// An edge is written at its consumer: "node.port", or "inputs.name" for an input of the graph. "${name}" as
+// a whole value keeps the parameter's type; inside a longer text it is replaced as text. Paths of subgraphs
+// are relative to the file that names them. // and /* */ comments are accepted.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ballflow/error.hpp"
+#include "ballflow/node_decl.hpp"
+#include "ballflow/registry.hpp"
+
+namespace ballflow {
+
+/// Where an element of a graph was written.
+struct Place {
+  std::string file;
+  int line = 0, column = 0;
+  std::string pointer;
+};
+
+/// An edge of the flat DAG: output `port` of node `node` (index into Dag::nodes).
+struct EdgeRef {
+  std::size_t node = 0;
+  std::string port;
+};
+
+struct DagNode {
+  std::string path;  // "prune/greedy": node names from the top graph down
+  const NodeDeclaration* decl = nullptr;
+  std::map<std::string, EdgeRef> inputs;  // connected ports only
+  std::map<std::string, Json> params;     // every declared parameter, defaults filled in, checked
+  Place place;
+};
+
+struct DagOutput {
+  std::string name, doc;
+  EdgeRef from;
+};
+
+/// Subgraphs, parameters and includes resolved. Nodes are in topological order, ties by path.
+struct Dag {
+  std::string file;
+  std::string doc;
+  std::map<std::string, Json> params;  // of the top graph, overrides applied
+  std::vector<DagNode> nodes;
+  std::vector<DagOutput> outputs;
+  std::vector<Diagnostic> warnings;
+
+  const DagNode* find(const std::string& path) const;
+};
+
+/// One --set: "epsilon" or "prune/greedy.mode" (also with dots: "prune.greedy.mode"), and its text.
+struct Override {
+  std::string name, value;
+};
+
+/// Reads, expands and checks a graph file: syntax, unknown and duplicate keys, node types, ports, types of
+/// edges, required inputs, cycles, parameter kinds and ranges, overrides that match nothing. Throws
+/// GraphError with ALL findings. Relative paths of file parameters written in a graph file are relative to
+/// the current directory when they come from an override or a default, as on every command line.
+/// Limits: 64 MB of text, nesting depth 100, 1 000 000 nodes, subgraphs 50 deep.
+Dag load_graph(const std::string& file, const Registry& registry, const std::vector<Override>& overrides = {});
+
+/// The same from text; `file` is the name used in messages and the base of relative subgraph paths.
+Dag parse_graph(const std::string& text, const std::string& file, const Registry& registry,
+                const std::vector<Override>& overrides = {});
+
+}  // namespace ballflow

@@ -1,0 +1,30 @@
+// Action keys. The key of a node is the SHA-256 of its manifest: everything that may change its outputs, and
+// nothing else (no names, paths, times, thread counts).
+//
+// Manifest: a JSON text for people and explain, from which the hashed bytes are derived field by field,
+// each length-prefixed and type-tagged (doubles as IEEE bits, -0 as 0):
+//   {"format":1,"node":"Enlarge","version":1,"libraries":{...},"params":{...},"seed":null,
+//    "inputs":{"balls":{"type":"Balls","version":1,"digest":"..."}}}
+// A file parameter appears as {"file":{"digest":"...","format":"off.gz"}}.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "ballflow/digest.hpp"
+#include "ballflow/graph.hpp"
+#include "ballflow/store.hpp"
+
+namespace ballflow {
+
+struct ActionKey {
+  Digest key;
+  std::string manifest;
+};
+
+/// The key of `node` when its inputs have the given entries (by port). Reads the digests of file parameters
+/// through `store`; throws Error when such a file cannot be read.
+ActionKey action_key(const DagNode& node, const std::map<std::string, OutputEntry>& inputs, std::uint64_t seed,
+                     Store& store);
+
+}  // namespace ballflow

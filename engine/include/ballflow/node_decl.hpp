@@ -1,0 +1,88 @@
+// Declarations of nodes and types as the engine sees them: parsed and checked copies of the JSON that
+// plugins hand over (sdk.hpp writes it).
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "ballflow/artifact.hpp"
+#include "ballflow/plugin.h"
+
+namespace ballflow {
+
+using Json = nlohmann::ordered_json;
+
+struct ArrayDecl {
+  std::string name, dtype, doc;
+  // First dimension by name ("n", "n+1": equal names mean equal lengths) unless rank 0 or fixed; others fixed.
+  std::vector<Json> shape;
+  bool optional = false;
+};
+
+struct TypeDeclaration {
+  std::string id;
+  int version = 0;
+  std::string doc;
+  std::vector<ArrayDecl> arrays;
+  std::vector<std::pair<std::string, std::string>> summary;  // field, doc
+  std::string plugin_path;
+  const bf_type* entry = nullptr;
+};
+
+struct PortDecl {
+  std::string name, type, doc;
+  int type_version = 0;
+  bool optional = false;
+};
+
+enum class ParamKind { number, integer, boolean, string, choice, file };
+
+struct ParamDecl {
+  std::string name, doc, unit;
+  ParamKind kind = ParamKind::string;
+  Json default_value;  // null when required
+  bool required = false;
+  bool hashed = true;
+  std::optional<double> minimum, maximum, exclusive_minimum, exclusive_maximum;
+  std::vector<std::pair<std::string, std::string>> choices;  // value, doc
+  std::vector<std::string> schemes;  // prefixes of file parameters that are not files
+
+  /// Empty when `value` is acceptable, else why not ("must be at least 0, is -1").
+  std::string refuse(const Json& value) const;
+};
+
+struct Citation {
+  std::string key, where;
+};
+
+struct NodeDeclaration {
+  std::string id;
+  int version = 0;
+  std::string summary, doc, avoid_when;
+  std::vector<Citation> cites;
+  std::map<std::string, std::string> libraries;
+  bool uses_seed = false;
+  std::uint64_t memory_fixed = 0;
+  double memory_per_input_byte = 0;
+  std::vector<PortDecl> inputs, outputs;
+  std::vector<ParamDecl> params;
+  std::string plugin_path;
+  const bf_node* entry = nullptr;
+
+  const PortDecl* input(std::string_view name) const;
+  const PortDecl* output(std::string_view name) const;
+  const ParamDecl* param(std::string_view name) const;
+};
+
+/// Parse declarations; throw Error (code plugin) that names the field that is missing or wrong.
+NodeDeclaration parse_node_declaration(std::string_view json);
+TypeDeclaration parse_type_declaration(std::string_view json);
+
+}  // namespace ballflow

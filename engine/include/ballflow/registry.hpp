@@ -1,0 +1,57 @@
+// Which nodes and types exist: node libraries are found, checked and loaded here.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ballflow/artifact.hpp"
+#include "ballflow/node_decl.hpp"
+
+namespace ballflow {
+
+/// A file that was looked at while searching for node libraries.
+struct PluginCandidate {
+  std::string path;
+  std::string name, version;  // of an accepted library
+  std::string refused;        // why it was not loaded; empty when it was
+};
+
+class Registry {
+ public:
+  /// Looks for *.so in `extra` (files or folders), the folders of $BALLFLOW_PLUGIN_PATH, and next to the
+  /// executable (../lib/ballflow). Reads the ABI note of each file before it is loaded. A library that
+  /// cannot be used is a refused candidate, not an error; a node or type declared twice with different
+  /// content throws Error (code plugin) that names both files.
+  static std::shared_ptr<const Registry> load(const std::vector<std::string>& extra = {});
+  /// The default folder of node libraries of this executable.
+  static std::string default_folder();
+
+  /// For tests and tools: an empty registry to which declarations are added.
+  Registry() = default;
+  void add(NodeDeclaration node);
+  void add(TypeDeclaration type);
+  void add_plugin(const bf_plugin& plugin, const std::string& path);
+
+  const NodeDeclaration* node(const std::string& id) const;
+  const TypeDeclaration* type(const std::string& id) const;
+  const std::map<std::string, NodeDeclaration>& nodes() const { return nodes_; }
+  const std::map<std::string, TypeDeclaration>& types() const { return types_; }
+  const std::vector<PluginCandidate>& candidates() const { return candidates_; }
+
+ private:
+  std::map<std::string, NodeDeclaration> nodes_;
+  std::map<std::string, TypeDeclaration> types_;
+  std::vector<PluginCandidate> candidates_;
+};
+
+/// Reads the ABI note of an ELF file without loading it. Returns an empty string when the library fits,
+/// else the reason why it does not.
+std::string refuse_plugin_file(const std::string& path);
+
+/// Compares arrays with the declaration of their type (presence, dtype, rank, lengths) and runs the type's
+/// own check. Returns an empty string when all is well, else what is wrong.
+std::string check_artifact(const TypeDeclaration& type, const Artifact& artifact);
+
+}  // namespace ballflow

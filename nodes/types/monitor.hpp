@@ -1,0 +1,47 @@
+// How a long computation reports progress and learns that nobody wants its result any more, without
+// knowing who runs it.
+#pragma once
+
+#include <exception>
+#include <stdexcept>
+#include <string>
+
+namespace ballflow::geometry {
+
+/// Thrown by Monitor::step when the computation was cancelled.
+struct Cancelled : std::exception {
+  const char* what() const noexcept override { return "cancelled"; }
+};
+
+/// Bad input or an impossible request. what() is "cause\nhint": one line that names the place and the
+/// number, one line that says what to do next.
+struct InputError : std::runtime_error {
+  InputError(const std::string& cause, const std::string& hint)
+      : std::runtime_error(hint.empty() ? cause : cause + "\n" + hint) {}
+};
+
+/// Safe to call from several threads at once. The default does nothing.
+class Monitor {
+ public:
+  virtual ~Monitor() = default;
+
+  /// `fraction` in [0, 1] of the work is done; call it often (thousands of times a second are cheap).
+  virtual void progress(double fraction) { (void)fraction; }
+  virtual bool cancelled() { return false; }
+  /// Something the user should know although the result is valid.
+  virtual void warn(const std::string& text) { (void)text; }
+
+  /// Reports progress; throws Cancelled when the result is no longer wanted.
+  void step(double fraction) {
+    if (cancelled()) throw Cancelled();
+    progress(fraction);
+  }
+};
+
+/// The monitor of callers that watch nothing.
+inline Monitor& no_monitor() {
+  static Monitor monitor;
+  return monitor;
+}
+
+}  // namespace ballflow::geometry

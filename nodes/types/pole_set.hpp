@@ -1,0 +1,39 @@
+// Poles of the Voronoi diagram of a sample (Amenta and Bern 1999; thesis, 3.3 and 3.4).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "types/array.hpp"
+#include "types/vec3.hpp"
+
+namespace ballflow::geometry {
+
+enum class PoleLabel : std::uint8_t { unlabelled = 0, inner = 1, outer = 2 };
+
+struct PoleSet {
+  // One entry per Voronoi VERTEX that is a pole of at least one sample. Vertices that coincide exactly
+  // (five and more cospherical samples) are one entry. Sorted by their smallest defining samples.
+  Array<Vec3> centers;   // p x 3, model units; finite
+  Array<double> radii;   // p, distance to the defining samples
+  Array<std::uint8_t> labels;  // p, PoleLabel; all unlabelled before LabelPoles
+
+  // The samples on the sphere of each pole (all sites of the Voronoi vertex, at least 4, ascending; the
+  // far-away points that bound the diagram are not samples and are left out, so there may be fewer).
+  Array<std::int64_t> defining_offsets;  // p + 1
+  Array<std::int32_t> defining_samples;
+
+  Array<std::uint8_t> unbounded;  // p, 1 where a far-away bounding point is a site: such a pole is outer
+
+  // For each sample its two poles: [0] the farthest vertex of its cell, [1] the farthest on the other
+  // side; -1 where there is none.
+  Array<std::array<std::int32_t, 2>> sample_poles;  // n x 2
+
+  std::size_t size() const { return radii.size(); }
+};
+
+/// Empty when the invariants above hold, else what is wrong and where.
+std::string broken_invariant(const PoleSet& poles);
+
+}  // namespace ballflow::geometry
