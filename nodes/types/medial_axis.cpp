@@ -1,0 +1,137 @@
+#include "types/medial_axis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace ballflow::geometry {
+namespace {
+
+using Edge = std::array<std::int32_t, 2>;
+
+Edge undirected(std::int32_t a, std::int32_t b) { return a < b ? Edge{a, b} : Edge{b, a}; }
+
+/// Sides of polygons, each once, ascending.
+std::vector<Edge> polygon_sides(const MedialAxis& axis) {
+  std::vector<Edge> sides;
+  sides.reserve(axis.polygon_vertices.size());
+  for (std::size_t i = 0; i < axis.polygons(); ++i) {
+    const auto corners = axis.polygon(i);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      sides.push_back(undirected(corners[k], corners[(k + 1) % corners.size()]));
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
+  return sides;
+}
+
+std::string broken_polygon(const MedialAxis& axis, std::size_t i) {
+  const std::string name = "polygon " + std::to_string(i);
+  const auto corners = axis.polygon(i);
+  if (corners.size() < 3)
+    return name + " has " + std::to_string(corners.size()) + " corners, a polygon has at least 3";
+  for (const std::int32_t v : corners) {
+    if (v < 0 || static_cast<std::size_t>(v) >= axis.vertices.size()) {
+      return name + " has corner " + std::to_string(v) + ", there are " +
+             std::to_string(axis.vertices.size()) + " vertices";
+    }
+  }
+  std::vector<std::int32_t> sorted(corners.begin(), corners.end());
+  std::sort(sorted.begin(), sorted.end());
+  const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+  if (twice != sorted.end()) return name + " passes twice through vertex " + std::to_string(*twice);
+  if (axis.polygon_kinds[i] > static_cast<std::uint8_t>(AxisKind::wall)) {
+    return name + " has the unknown kind " + std::to_string(axis.polygon_kinds[i]);
+  }
+  return {};
+}
+
+}  // namespace
+
+AxisTopology axis_topology(const MedialAxis& axis) {
+  std::vector<Edge> edges = polygon_sides(axis);
+  edges.reserve(edges.size() + axis.edges.size());
+  for (const Edge& e : axis.edges) edges.push_back(undirected(e[0], e[1]));
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+
+  std::vector<std::int32_t> root(axis.vertices.size());
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&root](std::int32_t v) {
+    while (root[static_cast<std::size_t>(v)] != v) {
+      std::int32_t& up = root[static_cast<std::size_t>(v)];
+      up = root[static_cast<std::size_t>(up)];
+      v = up;
+    }
+    return v;
+  };
+  AxisTopology topology;
+  topology.components = static_cast<std::int64_t>(axis.vertices.size());
+  for (const Edge& e : edges) {
+    const std::int32_t a = find(e[0]), b = find(e[1]);
+    if (a == b) continue;
+    root[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    --topology.components;
+  }
+  topology.euler_characteristic = static_cast<std::int64_t>(axis.vertices.size()) -
+                                  static_cast<std::int64_t>(edges.size()) +
+                                  static_cast<std::int64_t>(axis.polygons());
+  return topology;
+}
+
+std::string broken_invariant(const MedialAxis& axis) {
+  const std::size_t n = axis.vertices.size();
+  if (axis.radii.size() != n) {
+    return std::to_string(n) + " vertices but " + std::to_string(axis.radii.size()) + " radii";
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!is_finite(axis.vertices[i])) return "vertex " + std::to_string(i) + " is not finite";
+    if (!std::isfinite(axis.radii[i]) || axis.radii[i] < 0) {
+      return "vertex " + std::to_string(i) + " has radius " + std::to_string(axis.radii[i]);
+    }
+  }
+  if (axis.polygon_offsets.size() != axis.polygons() + 1) {
+    return std::to_string(axis.polygons()) + " polygon kinds but " +
+           std::to_string(axis.polygon_offsets.size()) + " polygon offsets, there must be one more";
+  }
+  if (axis.polygon_offsets[0] != 0 ||
+      axis.polygon_offsets.back() != static_cast<std::int64_t>(axis.polygon_vertices.size())) {
+    return "polygon offsets run from " + std::to_string(axis.polygon_offsets[0]) + " to " +
+           std::to_string(axis.polygon_offsets.back()) + ", there are " +
+           std::to_string(axis.polygon_vertices.size()) + " corners";
+  }
+  for (std::size_t i = 0; i < axis.polygons(); ++i) {
+    if (axis.polygon_offsets[i] > axis.polygon_offsets[i + 1]) {
+      return "polygon " + std::to_string(i) + " ends before it begins";
+    }
+  }
+  for (std::size_t i = 0; i < axis.polygons(); ++i) {
+    std::string broken = broken_polygon(axis, i);
+    if (!broken.empty()) return broken;
+  }
+  const std::vector<Edge> sides = polygon_sides(axis);
+  std::vector<Edge> seen;
+  seen.reserve(axis.edges.size());
+  for (std::size_t i = 0; i < axis.edges.size(); ++i) {
+    const Edge e = axis.edges[i];
+    const std::string name = "edge " + std::to_string(i);
+    for (const std::int32_t v : e) {
+      if (v < 0 || static_cast<std::size_t>(v) >= n) {
+        return name + " has end " + std::to_string(v) + ", there are " + std::to_string(n) + " vertices";
+      }
+    }
+    if (e[0] == e[1]) return name + " joins vertex " + std::to_string(e[0]) + " to itself";
+    seen.push_back(undirected(e[0], e[1]));
+    if (std::binary_search(sides.begin(), sides.end(), seen.back())) return name + " is a side of a polygon";
+  }
+  std::sort(seen.begin(), seen.end());
+  const auto twice = std::adjacent_find(seen.begin(), seen.end());
+  if (twice != seen.end()) {
+    return "edge " + std::to_string((*twice)[0]) + ", " + std::to_string((*twice)[1]) + " is listed twice";
+  }
+  return {};
+}
+
+}  // namespace ballflow::geometry
