@@ -516,6 +516,19 @@ class NodeDecl {
       return BF_OK;
     } catch (const RunCancelled&) {
       return BF_CANCELLED;
+    } catch (...) {
+      // Whatever an algorithm throws to get out of a cancelled computation is not a failure.
+      if (context.cancelled()) return BF_CANCELLED;
+      report_exception(raw);
+    }
+    return BF_FAILED;
+  }
+
+ private:
+  /// Called inside a catch block.
+  static void report_exception(const bf_run& raw) {
+    try {
+      throw;
     } catch (const std::bad_alloc&) {
       fail(raw, "out of memory", "use a smaller input, a smaller epsilon, or a machine with more memory");
     } catch (const std::exception& error) {
@@ -525,10 +538,8 @@ class NodeDecl {
     } catch (...) {
       fail(raw, "the node threw something that is not an exception", "this is a bug of the node");
     }
-    return BF_FAILED;
   }
 
- private:
   NodeDecl& set(const char* key, std::string_view text) {
     json_[key] = text;
     return *this;
