@@ -9,24 +9,37 @@
 //   data      the arrays without holes, by element size (largest first), then by name; offsets count from
 //             the start of the data; little-endian, C order
 // The bytes are canonical: equal arrays, summary and type give equal bytes. The digest is their SHA-256.
+// Header keys are sorted, "__metadata__" first; there is no space in the header but its padding.
+//
+// Limits, of writing and of reading: the header (with the summary in it) has at most 16 MB; names of arrays
+// and of the type are 1 to 255 printable ASCII characters without quote and backslash; ranks are 0 to
+// BALLFLOW_MAX_RANK; a summary nests at most 64 deep.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "ballflow/digest.hpp"
+#include "ballflow/error.hpp"
 #include "ballflow/plugin.h"
 
 namespace ballflow {
 
-std::size_t dtype_size(std::uint32_t dtype);        // 0 for an unknown dtype
-std::string_view dtype_name(std::uint32_t dtype);   // "f64", as in declarations
+std::size_t dtype_size(std::uint32_t dtype);           // 0 for an unknown dtype
+std::string_view dtype_name(std::uint32_t dtype);      // "f64", as in declarations
 std::uint32_t dtype_from_name(std::string_view name);  // 0 for an unknown name
+
+/// The one spelling of a JSON value: keys sorted by their bytes, no white space, non-ASCII characters as
+/// UTF-8, doubles by their shortest digits that read back the same (and always with a point or an exponent,
+/// so that 1.0 does not turn into the integer 1), integers as they are. Throws Error with the given code for
+/// what is not JSON, names a key twice or nests deeper than 64.
+std::string canonical_json(std::string_view text, ExitCode code);
 
 struct NamedArray {
   std::string name;
@@ -41,24 +54,31 @@ struct NamedArray {
 class Artifact {
  public:
   /// Seals arrays: sorts them, writes the header, computes digest and checksum. `owner` keeps all data
-  /// alive. Throws Error when a name is not unique or a size overflows. `summary` is a JSON object; it is
-  /// rewritten in canonical form.
+  /// alive; nothing is copied. `summary` is a JSON object; it is rewritten in canonical form. Throws Error
+  /// (code plugin, because a node library made them) when a name is not unique, a size overflows or a limit
+  /// is passed.
   static std::shared_ptr<const Artifact> seal(std::string type, int version, std::vector<NamedArray> arrays,
                                               std::string_view summary, std::shared_ptr<const void> owner);
 
-  /// Reads the layout above from memory that `owner` keeps alive. Any byte string may be given: throws
-  /// Error (code store) that says what is wrong with it. Verifies the structure, not the digest.
-  static std::shared_ptr<const Artifact> decode(std::span<const std::byte> file, std::shared_ptr<const void> owner);
+  /// Reads the layout above from memory that `owner` keeps alive, without copying the arrays; `file` starts
+  /// at a multiple of 8. Any byte string may be given: throws Error (code store) that says what is wrong with
+  /// it. What it accepts is canonical: sealing the arrays again gives the same bytes. Computes the checksum,
+  /// not the digest.
+  static std::shared_ptr<const Artifact> decode(std::span<const std::byte> file,
+                                                std::shared_ptr<const void> owner);
 
-  /// Maps a file and decodes it.
+  /// Maps a file read-only and decodes it. The artifact stays valid when the file is deleted or replaced;
+  /// like every mapping it does not survive that the file is cut short.
   static std::shared_ptr<const Artifact> map(const std::string& path);
+  /// The same for an open file, which may be closed afterwards. `name` is for messages.
+  static std::shared_ptr<const Artifact> map(int file, const std::string& name);
 
   const std::string& type() const { return type_; }
   int version() const { return version_; }
   const std::vector<NamedArray>& arrays() const { return arrays_; }
   const NamedArray* find(std::string_view name) const;
   const std::string& summary() const { return summary_; }  // canonical JSON object
-  const Digest& digest() const { return digest_; }          // computed on first use after decode
+  const Digest& digest() const;                            // computed on first use after decode
   Checksum checksum() const { return checksum_; }
   std::uint64_t file_size() const { return file_size_; }
 
@@ -66,12 +86,16 @@ class Artifact {
   std::vector<std::span<const std::byte>> pieces() const;
 
  private:
+  friend class Store;  // knows the digest of what it loads
   Artifact() = default;
+  void settle(const Digest& known) const;
+
   std::string type_;
   int version_ = 0;
-  std::vector<NamedArray> arrays_;
+  std::vector<NamedArray> arrays_;  // in the order of the file
   std::string summary_;
-  std::string header_;
+  std::string header_;  // length, JSON and padding
+  mutable std::once_flag digest_once_;
   mutable Digest digest_;
   Checksum checksum_;
   std::uint64_t file_size_ = 0;

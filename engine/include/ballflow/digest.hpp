@@ -1,12 +1,13 @@
-// SHA-256 digests: the names of artifacts and of actions.
+// SHA-256 digests: the names of artifacts and of actions. XXH3-128 checksums: the fast check of what was
+// read.
 #pragma once
 
 #include <array>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <cstring>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -22,6 +23,7 @@ struct Digest {
 
   /// 64 lower-case hexadecimal digits.
   std::string hex() const;
+  /// Accepts exactly what hex() writes.
   static std::optional<Digest> from_hex(std::string_view text);
 };
 
@@ -35,7 +37,7 @@ class Hasher {
 
   void add(const void* data, std::size_t size);
   void add(std::string_view text) { add(text.data(), text.size()); }
-  /// Ends the computation.
+  /// Ends the computation; call it once, last.
   Digest finish();
 
  private:
@@ -44,11 +46,28 @@ class Hasher {
 
 Digest sha256(std::string_view bytes);
 
-/// XXH3-128 of a blob: the fast check when it is loaded.
+/// XXH3-128. It finds accidental damage at memory speed; it does not withstand an attacker.
 struct Checksum {
   std::uint64_t low = 0, high = 0;
   friend bool operator==(const Checksum&, const Checksum&) = default;
 };
+
+/// Incremental XXH3-128.
+class Checksummer {
+ public:
+  Checksummer();
+  ~Checksummer();
+  Checksummer(const Checksummer&) = delete;
+  Checksummer& operator=(const Checksummer&) = delete;
+
+  void add(const void* data, std::size_t size);
+  Checksum finish() const;
+
+ private:
+  void* context_;
+};
+
+Checksum checksum_of(const void* data, std::size_t size);
 
 }  // namespace ballflow
 
