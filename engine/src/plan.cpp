@@ -1,0 +1,89 @@
+#include <algorithm>
+
+#include "ballflow/run.hpp"
+
+namespace ballflow {
+
+std::vector<bool> needed_nodes(const Dag& dag) {
+  std::vector<bool> needed(dag.nodes.size(), false);
+  for (const DagOutput& output : dag.outputs) needed[output.from.node] = true;
+  for (std::size_t i = dag.nodes.size(); i-- > 0;) {  // topological order: consumers come later
+    if (!needed[i]) continue;
+    for (const auto& [port, edge] : dag.nodes[i].inputs) needed[edge.node] = true;
+  }
+  return needed;
+}
+
+std::vector<NodePlan> plan(const Dag& dag, Store& store, std::uint64_t seed, const Manifests& earlier) {
+  using Verdict = NodePlan::Verdict;
+  const std::size_t n = dag.nodes.size();
+  const std::vector<bool> needed = needed_nodes(dag);
+  std::vector<NodePlan> plans(n);
+  std::vector<std::optional<ActionEntry>> entries(n);
+
+  for (std::size_t i = 0; i < n; ++i) {
+    const DagNode& node = dag.nodes[i];
+    NodePlan& plan = plans[i];
+    if (!needed[i]) {
+      plan.verdict = Verdict::unneeded;
+      plan.reason = "no output of the graph needs it";
+      continue;
+    }
+    std::map<std::string, OutputEntry> inputs;
+    std::string unknown;
+    for (const auto& [port, edge] : node.inputs) {
+      if (!entries[edge.node]) {
+        unknown = dag.nodes[edge.node].path;
+        break;
+      }
+      for (const OutputEntry& output : entries[edge.node]->outputs) {
+        if (output.port == edge.port) inputs[port] = output;
+      }
+    }
+    if (!unknown.empty()) {
+      plan.verdict = Verdict::maybe;
+      plan.reason = "waits for " + unknown + "; a hit if that gives the same content as before";
+      continue;
+    }
+    const ActionKey key = action_key(node, inputs, seed, store);
+    entries[i] = store.find_action(key.key);
+    if (entries[i]) {
+      plan.verdict = Verdict::hit;
+      plan.reason = "same inputs and parameters";
+      plan.seconds = entries[i]->seconds;
+      continue;
+    }
+    plan.verdict = Verdict::run;
+    const auto before = earlier.find(node.path);
+    if (before == earlier.end()) {
+      plan.reason = "never ran here";
+      continue;
+    }
+    const std::vector<std::string> differences = manifest_differences(before->second, key.manifest);
+    if (differences.empty()) plan.reason = "its entry is no longer in the cache";
+    for (const std::string& difference : differences) {
+      plan.reason += (plan.reason.empty() ? "" : "; ") + difference;
+    }
+  }
+
+  // A hit whose artifact is not stored runs after all when something that runs needs it.
+  std::vector<std::vector<std::pair<std::size_t, std::string>>> consumers(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (const auto& [port, edge] : dag.nodes[i].inputs) consumers[edge.node].emplace_back(i, edge.port);
+  }
+  for (std::size_t i = n; i-- > 0;) {
+    if (plans[i].verdict != Verdict::hit) continue;
+    for (const auto& [consumer, port] : consumers[i]) {
+      if (plans[consumer].verdict != Verdict::run) continue;
+      const auto output = std::find_if(entries[i]->outputs.begin(), entries[i]->outputs.end(),
+                                       [&port = port](const OutputEntry& o) { return o.port == port; });
+      if (output == entries[i]->outputs.end() || store.has_blob(*output)) continue;
+      plans[i].verdict = Verdict::run;
+      plans[i].reason = dag.nodes[consumer].path + " needs its " + port + ", which is not stored";
+      break;
+    }
+  }
+  return plans;
+}
+
+}  // namespace ballflow

@@ -1,0 +1,151 @@
+#include "ballflow/report.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace ballflow {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One folder per graph file: the latest run is what reasons are compared with.
+fs::path latest_folder(const Store& store, const std::string& graph_file) {
+  std::error_code error;
+  const fs::path absolute = fs::weakly_canonical(graph_file, error);
+  const std::string name = sha256(error ? graph_file : absolute.string()).hex().substr(0, 32);
+  return fs::path(store.root()) / "runs" / ("latest-" + name);
+}
+
+Json outputs_json(const std::vector<OutputEntry>& outputs) {
+  Json json = Json::object();
+  for (const OutputEntry& output : outputs) {
+    Json summary = Json::parse(output.summary, nullptr, false);
+    json[output.port] = {{"type", output.type},
+                         {"digest", output.digest.hex()},
+                         {"bytes", output.bytes},
+                         {"summary", summary.is_discarded() ? Json::object() : std::move(summary)}};
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string_view to_string(ExitCode status) {
+  switch (status) {
+    case ExitCode::ok: return "ok";
+    case ExitCode::usage: return "usage";
+    case ExitCode::node_failed: return "failed";
+    case ExitCode::cancelled: return "cancelled";
+    case ExitCode::store: return "store";
+    case ExitCode::plugin: return "plugin";
+  }
+  return "";
+}
+
+Json run_report(const std::string& id, const Dag& dag, const RunResult& result) {
+  Json report = {{"run", id},
+                 {"graph", dag.file},
+                 {"status", to_string(result.status)},
+                 {"seconds", result.seconds},
+                 {"cpu_seconds", result.cpu_seconds},
+                 {"peak_rss_bytes", result.peak_rss_bytes}};
+  report["params"] = Json::object();
+  for (const auto& [name, value] : dag.params) report["params"][name] = value;
+  Json nodes = Json::object();
+  for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
+    const DagNode& node = dag.nodes[i];
+    const NodeResult& r = result.nodes[i];
+    Json json = {{"type", node.decl->id},
+                 {"status", to_string(r.status)},
+                 {"reason", r.reason},
+                 {"seconds", r.seconds},
+                 {"cpu_seconds", r.cpu_seconds}};
+    json["params"] = Json::object();
+    for (const auto& [name, value] : node.params) json["params"][name] = value;
+    json["outputs"] = outputs_json(r.outputs);
+    if (!r.warnings.empty()) json["warnings"] = r.warnings;
+    if (r.status == NodeStatus::failed) json["error"] = {{"cause", r.cause}, {"hint", r.hint}};
+    nodes[node.path] = std::move(json);
+  }
+  report["nodes"] = std::move(nodes);
+  Json outputs = Json::object();
+  for (const DagOutput& output : dag.outputs) {
+    const NodeResult& r = result.nodes[output.from.node];
+    for (const OutputEntry& entry : r.outputs) {
+      if (entry.port != output.from.port) continue;
+      Json one = outputs_json({entry})[entry.port];
+      one["from"] = dag.nodes[output.from.node].path + "." + output.from.port;
+      outputs[output.name] = std::move(one);
+    }
+  }
+  report["outputs"] = std::move(outputs);
+  return report;
+}
+
+Manifests load_manifests(Store& store, const std::string& graph_file) {
+  Manifests manifests;
+  if (store.root().empty()) return manifests;
+  std::ifstream in(latest_folder(store, graph_file) / "manifests.json", std::ios::binary);
+  if (!in) return manifests;
+  std::ostringstream text;
+  text << in.rdbuf();
+  const Json json = Json::parse(text.str(), nullptr, false);
+  if (!json.is_object()) return manifests;
+  for (const auto& [path, manifest] : json.items()) {
+    if (manifest.is_string()) manifests[path] = manifest.get<std::string>();
+  }
+  return manifests;
+}
+
+void save_latest(Store& store, const std::string& graph_file, const RunResult& result, const Dag& dag,
+                 const Json& report) {
+  if (store.root().empty() || store.read_only()) return;
+  Json manifests = Json::object();
+  for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
+    const NodeResult& node = result.nodes[i];
+    if (!node.manifest.empty()) manifests[dag.nodes[i].path] = node.manifest;
+  }
+  const fs::path folder = latest_folder(store, graph_file);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) return;
+  try {
+    write_atomically((folder / "manifests.json").string(), manifests.dump());
+    write_atomically((folder / "report.json").string(), report.dump(1));
+  } catch (const Error&) {
+    // A full disk costs reasons of the next run, not this run.
+  }
+}
+
+void write_atomically(const std::string& path, std::string_view content) {
+  const std::string temporary = path + "." + std::to_string(getpid()) + ".tmp";
+  const auto fail = [&](const char* what) -> Error {
+    const int code = errno;
+    unlink(temporary.c_str());
+    return {ExitCode::store, "cannot " + std::string(what) + " " + path + ": " + std::strerror(code),
+            "choose a folder that exists, can be written and has room"};
+  };
+  const int file = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0) throw fail("create");
+  for (std::size_t done = 0; done < content.size();) {
+    const ssize_t n = write(file, content.data() + done, content.size() - done);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) {
+      const int code = errno;
+      close(file);
+      errno = code;
+      throw fail("write");
+    }
+    done += static_cast<std::size_t>(n);
+  }
+  if (close(file) != 0) throw fail("write");
+  if (rename(temporary.c_str(), path.c_str()) != 0) throw fail("replace");
+}
+
+}  // namespace ballflow

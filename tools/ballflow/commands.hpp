@@ -1,0 +1,53 @@
+// The commands of the command line. Each adds itself to the parser; what it returns is the exit code.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ballflow/graph.hpp"
+#include "ballflow/registry.hpp"
+#include "ballflow/store.hpp"
+
+namespace ballflow::cli {
+
+/// Options that several commands share.
+struct Common {
+  std::vector<std::string> plugins;
+  std::string cache;
+  bool no_cache = false;
+
+  std::shared_ptr<const Registry> registry() const { return Registry::load(plugins); }
+  std::shared_ptr<Store> store() const;
+};
+
+/// The graph of a command and the values set for it.
+struct GraphArguments {
+  std::string file;
+  std::vector<std::string> sets;
+
+  void add_to(CLI::App& command);
+  std::vector<Override> overrides() const;
+};
+
+/// Registered commands put what they do here; main runs it after parsing.
+using Action = std::function<int()>;
+
+void add_run(CLI::App& app, Common& common, Action& action);
+void add_plan(CLI::App& app, Common& common, Action& action);
+void add_check(CLI::App& app, Common& common, Action& action);
+void add_nodes(CLI::App& app, Common& common, Action& action);
+void add_cache(CLI::App& app, Common& common, Action& action);
+void add_export(CLI::App& app, Common& common, Action& action);
+void add_version(CLI::App& app, Common& common, Action& action);
+
+/// Prints rows as a table with aligned columns.
+void print_table(const std::vector<std::vector<std::string>>& rows);
+
+/// The text of a JSON value for people: strings without quotes.
+std::string plain(const Json& value);
+
+}  // namespace ballflow::cli

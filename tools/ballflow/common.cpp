@@ -1,0 +1,56 @@
+#include <algorithm>
+#include <cstdio>
+
+#include "commands.hpp"
+
+namespace ballflow::cli {
+
+std::shared_ptr<Store> Common::store() const {
+  StoreOptions options;
+  if (!no_cache) options.root = cache.empty() ? Store::default_root() : cache;
+  return Store::open(options);
+}
+
+void GraphArguments::add_to(CLI::App& command) {
+  command.add_option("graph", file, "graph file")->required()->type_name("GRAPH.json");
+  command
+      .add_option("--set", sets,
+                  "set a parameter of the graph (epsilon=0.5) or of one node (prune/greedy.mode=until_covered)")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+}
+
+std::vector<Override> GraphArguments::overrides() const {
+  std::vector<Override> result;
+  for (const std::string& set : sets) {
+    const std::size_t equals = set.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw Error(ExitCode::usage, "--set " + set + ": no \"=\" between a name and a value",
+                  "write it as --set epsilon=0.5");
+    }
+    result.push_back({set.substr(0, equals), set.substr(equals + 1)});
+  }
+  return result;
+}
+
+void print_table(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths;
+  for (const auto& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()));
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      line += row[i];
+      if (i + 1 < row.size()) line += std::string(widths[i] - row[i].size() + 2, ' ');
+    }
+    std::printf("%s\n", line.c_str());
+  }
+}
+
+std::string plain(const Json& value) {
+  return value.is_string() ? value.get<std::string>() : value.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace ballflow::cli

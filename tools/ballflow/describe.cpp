@@ -1,0 +1,115 @@
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <map>
+
+#include "terminal.hpp"
+
+namespace ballflow::cli {
+namespace {
+
+std::string number(const Json& summary, const char* field) {
+  if (!summary.contains(field) || !summary.at(field).is_number()) return "?";
+  return grouped(summary.at(field).get<std::int64_t>());
+}
+
+std::string percent(double fraction) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f %%", 100 * fraction);
+  return text;
+}
+
+std::string cover(const Json& s) {
+  if (s.contains("remaining") && s.at("remaining") == 0) {
+    std::string text = number(s, "chosen") + " balls chosen";
+    if (s.at("lower_bound").is_number()) text += ", at least " + number(s, "lower_bound") + " needed";
+    if (s.at("gap").is_number()) text += ", gap " + percent(s.at("gap").get<double>());
+    return text;
+  }
+  std::string text = number(s, "rows") + " x " + number(s, "cols") + ", " + number(s, "nnz") + " entries";
+  if (s.contains("chosen") && s.at("chosen") != 0) text += ", " + number(s, "chosen") + " balls chosen";
+  return text;
+}
+
+std::string mesh(const Json& s) {
+  std::string text = number(s, "faces") + " triangles, ";
+  if (s.value("faces", 0) == 0) return "no triangles";
+  text += s.value("closed", false) ? "closed" : "open";
+  if (!s.value("manifold", true)) text += ", not manifold";
+  if (s.contains("genus") && s.at("genus").is_number()) text += ", genus " + number(s, "genus");
+  return text;
+}
+
+std::string complex(const Json& s) {
+  std::string text = number(s, "tetrahedra") + " tetrahedra, " + number(s, "triangles") + " triangles, Euler characteristic " +
+                     number(s, "euler_characteristic");
+  if (s.contains("betti") && s.at("betti").is_array() && s.at("betti").size() == 3) {
+    text += ", Betti " + s.at("betti")[0].dump() + " " + s.at("betti")[1].dump() + " " + s.at("betti")[2].dump();
+  }
+  return text;
+}
+
+std::string axis(const Json& s) {
+  return number(s, "polygons") + " polygons, " + number(s, "edges") + " free edges, Euler characteristic " +
+         number(s, "euler_characteristic");
+}
+
+}  // namespace
+
+std::string grouped(std::int64_t value) {
+  std::string digits = std::to_string(value < 0 ? -value : value);
+  for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, " ");
+  return value < 0 ? "-" + digits : digits;
+}
+
+std::string duration(double seconds) {
+  char text[32];
+  if (seconds < 10) {
+    std::snprintf(text, sizeof text, "%.3f s", seconds);
+  } else if (seconds < 120) {
+    std::snprintf(text, sizeof text, "%.1f s", seconds);
+  } else {
+    const auto whole = static_cast<long>(std::lround(seconds));
+    std::snprintf(text, sizeof text, "%ld min %02ld s", whole / 60, whole % 60);
+  }
+  return text;
+}
+
+std::string describe(const OutputEntry& output) {
+  using Words = std::function<std::string(const Json&)>;
+  static const std::map<std::string, Words> words = {
+      {"PointSet", [](const Json& s) { return number(s, "count") + " points"; }},
+      {"TriangleMesh", mesh},
+      {"PoleSet",
+       [](const Json& s) {
+         const bool labelled = s.value("inner", 0) + s.value("outer", 0) != 0;
+         return number(s, "poles") + " poles" +
+                (labelled ? " (" + number(s, "inner") + " inner, " + number(s, "outer") + " outer)" : "");
+       }},
+      {"CoverState", cover},
+      {"CoverCheck",
+       [](const Json& s) { return number(s, "covered") + " of " + number(s, "samples") + " samples covered"; }},
+      {"SimplicialComplex", complex},
+      {"MedialAxis", axis},
+  };
+  const Json summary = Json::parse(output.summary, nullptr, false);
+  if (!summary.is_object()) return output.type;
+  if (output.type == "Balls") {
+    return number(summary, "count") + (output.port == "balls" ? " balls" : " " + output.port + " balls");
+  }
+  const auto found = words.find(output.type);
+  if (found != words.end()) return found->second(summary);
+  std::string text = output.type;  // a type of another plugin: its numbers speak for themselves
+  for (const auto& [field, value] : summary.items()) {
+    if (value.is_number()) text += ", " + field + " " + value.dump();
+  }
+  return text;
+}
+
+std::string describe(const std::vector<OutputEntry>& outputs) {
+  std::string text;
+  for (const OutputEntry& output : outputs) text += (text.empty() ? "" : "; ") + describe(output);
+  return text;
+}
+
+}  // namespace ballflow::cli

@@ -1,0 +1,180 @@
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <ctime>
+
+#include "ballflow/report.hpp"
+#include "commands.hpp"
+#include "output_folder.hpp"
+#include "terminal.hpp"
+
+namespace ballflow::cli {
+namespace {
+
+std::atomic<bool> cancel_requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+void on_interrupt(int signal_number) {
+  cancel_requested.store(true);
+  std::signal(signal_number, SIG_DFL);  // the second Ctrl-C ends the process at once; the store does not mind
+}
+
+struct RunArguments {
+  GraphArguments graph;
+  std::string out, report;
+  std::vector<std::string> formats;
+  unsigned threads = 0;
+  std::uint64_t seed = 0;
+  bool quiet = false;
+};
+
+/// "20261122T141503-4711": sorts by time, unique on one machine.
+std::string run_id() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y%m%dT%H%M%S", &utc);
+  return std::string(text) + "-" + std::to_string(getpid());
+}
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+%@") ==
+      std::string::npos) {
+    return text;
+  }
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + "'";
+}
+
+void print_failure(const RunArguments& arguments, const Dag& dag, const RunResult& result, std::size_t i) {
+  const DagNode& node = dag.nodes[i];
+  const NodeResult& failed = result.nodes[i];
+  std::fprintf(stderr, "\nnode %s (%s) failed: %s\n", node.path.c_str(), node.decl->id.c_str(), failed.cause.c_str());
+  if (!failed.hint.empty()) std::fprintf(stderr, "  what to do: %s\n", failed.hint.c_str());
+  for (const auto& [name, value] : node.params) {
+    std::fprintf(stderr, "  param %s = %s\n", name.c_str(), plain(value).c_str());
+  }
+  for (const auto& [port, edge] : node.inputs) {
+    for (const OutputEntry& entry : result.nodes[edge.node].outputs) {
+      if (entry.port != edge.port) continue;
+      std::fprintf(stderr, "  input %s = %s.%s, %s, %s\n", port.c_str(), dag.nodes[edge.node].path.c_str(),
+                   edge.port.c_str(), describe(entry).c_str(), entry.digest.hex().substr(0, 16).c_str());
+    }
+  }
+  std::string again = "ballflow run " + quoted(arguments.graph.file);
+  for (const std::string& set : arguments.graph.sets) again += " --set " + quoted(set);
+  std::fprintf(stderr, "  again, from this node on: %s\n", again.c_str());
+}
+
+void print_result(const Dag& dag, const RunResult& result) {
+  std::vector<std::vector<std::string>> rows = {{"node", "", "seconds", "result"}};
+  std::size_t hits = 0, runs = 0;
+  for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
+    const NodeResult& node = result.nodes[i];
+    std::string status, seconds;
+    switch (node.status) {
+      case NodeStatus::hit: status = "HIT"; ++hits; break;
+      case NodeStatus::run: status = "RUN"; seconds = duration(node.seconds); ++runs; break;
+      case NodeStatus::failed: status = "FAILED"; seconds = duration(node.seconds); break;
+      case NodeStatus::cancelled: status = "CANCELLED"; break;
+      default: status = "-"; break;
+    }
+    const bool good = node.status == NodeStatus::hit || node.status == NodeStatus::run;
+    rows.push_back({dag.nodes[i].path, status, seconds, good ? describe(node.outputs) : node.reason});
+  }
+  std::printf("\n");
+  print_table(rows);
+  std::printf("\n%zu run, %zu from the cache, %s (%s CPU), %s MB at most\n", runs, hits, duration(result.seconds).c_str(),
+              duration(result.cpu_seconds).c_str(), grouped(static_cast<std::int64_t>(result.peak_rss_bytes >> 20)).c_str());
+}
+
+int run(const Common& common, const RunArguments& arguments) {
+  std::map<std::string, std::string> formats;
+  for (const std::string& format : arguments.formats) {
+    const std::size_t equals = format.find('=');
+    if (equals == std::string::npos) {
+      throw Error(ExitCode::usage, "--format " + format + ": no \"=\" between an output and a format",
+                  "write it as --format balls=csv");
+    }
+    formats[format.substr(0, equals)] = format.substr(equals + 1);
+  }
+  const auto registry = common.registry();
+  const Dag dag = load_graph(arguments.graph.file, *registry, arguments.graph.overrides());
+  for (const Diagnostic& warning : dag.warnings) std::fprintf(stderr, "%s\n", warning.text().c_str());
+  for (const auto& [output, format] : formats) {
+    std::vector<std::string> names;
+    for (const DagOutput& known : dag.outputs) names.push_back(known.name);
+    if (std::find(names.begin(), names.end(), output) != names.end()) continue;
+    const std::string near = nearest(output, names);
+    throw Error(ExitCode::usage, "--format " + output + "=" + format + ": the graph has no output \"" + output + "\"",
+                near.empty() ? "" : "did you mean \"" + near + "\"?");
+  }
+  const auto store = common.store();
+  if (!common.no_cache && store->read_only()) {
+    std::fprintf(stderr, "warning: the cache is not written: %s\n", store->why().c_str());
+  }
+
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+  RunOptions options;
+  options.threads = arguments.threads;
+  options.seed = arguments.seed;
+  options.cancel = &cancel_requested;
+  const auto display =
+      arguments.quiet ? no_display() : progress_display(dag, isatty(STDERR_FILENO) != 0);
+  Runner runner(dag, *registry, store, options, *display, load_manifests(*store, arguments.graph.file));
+  const RunResult& result = runner.run();
+
+  std::vector<WrittenFile> files;
+  if (!arguments.out.empty() && result.status == ExitCode::ok) {
+    files = write_outputs(arguments.out, dag, result, formats,
+                          [&runner](const EdgeRef& edge) { return runner.artifact(edge); });
+  }
+  const Json report = run_report(run_id(), dag, result);
+  save_latest(*store, arguments.graph.file, result, dag, report);
+  if (!arguments.report.empty()) write_atomically(arguments.report, report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+
+  if (!arguments.quiet) {
+    print_result(dag, result);
+    for (const WrittenFile& file : files) {
+      std::printf("%s %s: %s\n", file.written ? "wrote" : "kept ", file.path.c_str(), file.what.c_str());
+    }
+    if (!arguments.report.empty()) std::printf("report %s\n", arguments.report.c_str());
+  }
+  for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
+    if (result.nodes[i].status == NodeStatus::failed) print_failure(arguments, dag, result, i);
+  }
+  if (result.status == ExitCode::cancelled) {
+    std::fprintf(stderr, "cancelled; what was finished is in the cache, the same command goes on from there\n");
+  }
+  return static_cast<int>(result.status);
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, Common& common, Action& action) {
+  CLI::App* command = app.add_subcommand("run", "run a graph; what is in the cache is not computed again");
+  const auto arguments = std::make_shared<RunArguments>();
+  arguments->graph.add_to(*command);
+  command->add_option("--out", arguments->out, "folder that receives the outputs of the graph")->type_name("DIR");
+  command
+      ->add_option("--format", arguments->formats,
+                   "format of an output file, e.g. balls=csv; see \"ballflow export --help\" for the formats")
+      ->type_name("OUTPUT=FORMAT")
+      ->allow_extra_args(false);
+  command->add_option("--report", arguments->report, "file that receives the report of the run (JSON)")->type_name("FILE");
+  command->add_option("--cache", common.cache, "cache folder")->type_name("DIR");
+  command->add_flag("--no-cache", common.no_cache, "neither read nor write a cache");
+  command->add_option("--threads", arguments->threads, "number of threads; 0: all cores (the result never depends on it)")
+      ->check(CLI::Range(0u, 4096u));
+  command->add_option("--seed", arguments->seed, "seed of the nodes that use random numbers");
+  command->add_flag("--quiet", arguments->quiet, "print errors only");
+  command->callback([&common, &action, arguments] { action = [&common, arguments] { return run(common, *arguments); }; });
+}
+
+}  // namespace ballflow::cli
