@@ -1,0 +1,15 @@
+// The family "shape": what is computed from a union of balls.
+#include <ballflow/sdk.hpp>
+
+#include "types/artifact_types.hpp"
+
+namespace ballflow::nodes {
+const bf_node* alpha_shape_entry();
+}  // namespace ballflow::nodes
+
+BALLFLOW_PLUGIN("shape", "0.1.0",
+                (std::vector<const bf_node*>{
+                    ballflow::nodes::alpha_shape_entry(),
+                }),
+                (ballflow::type_entries<ballflow::geometry::Balls, ballflow::geometry::SimplicialComplex,
+                                        ballflow::geometry::MedialAxis>()))

@@ -1,0 +1,54 @@
+// The vertices of the boundary of a union of balls, read off its dual complex.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "types/simplicial_complex.hpp"
+#include "types/vec3.hpp"
+
+namespace ballflow::geometry {
+
+/// A boundary vertex lies on the spheres of three balls i, j, k; the triangle ijk of the complex names it,
+/// together with the side of the triangle on which no tetrahedron of the complex lies (Amenta and Kolluri
+/// 2001, section 3). A triangle in one tetrahedron names one vertex (it is regular), a triangle in no
+/// tetrahedron two, one on either side (they are singular), a triangle in two tetrahedra none.
+///
+/// More than three spheres may pass through one point (balls on a grid, say). The vertices of their
+/// triangles are then merged into one, which keeps all the names.
+struct UnionVertices {
+  /// A regular triangle of the complex, seen from its vertex.
+  struct Face {
+    std::int32_t triangle = 0;  // index into complex.triangles
+    std::int8_t outside = 1;    // orientation(i, j, k, x) of the points x on the vertex' side: 1 or -1
+  };
+
+  std::vector<Vec3> points;  // n, in the order of their first names; pairwise distinct
+
+  // Balls whose spheres name vertex w: balls[ball_offsets[w] .. ball_offsets[w + 1]), ascending.
+  std::vector<std::int64_t> ball_offsets{0};
+  std::vector<std::int32_t> balls;
+
+  // Regular triangles that name vertex w, ascending; none when all its triangles are singular.
+  std::vector<std::int64_t> face_offsets{0};
+  std::vector<Face> faces;
+
+  std::size_t size() const { return points.size(); }
+  std::span<const std::int32_t> balls_of(std::size_t w) const { return part(balls, ball_offsets, w); }
+  std::span<const Face> faces_of(std::size_t w) const { return part(faces, face_offsets, w); }
+
+ private:
+  template <class T>
+  static std::span<const T> part(const std::vector<T>& all, const std::vector<std::int64_t>& offsets,
+                                 std::size_t w) {
+    const auto first = static_cast<std::size_t>(offsets[w]);
+    return std::span(all).subspan(first, static_cast<std::size_t>(offsets[w + 1]) - first);
+  }
+};
+
+/// Vertices closer than `merge_distance` (model units) to each other, in a chain, become one. The complex
+/// must hold its invariants (see broken_invariant) and its tetrahedra must not be flat.
+UnionVertices union_vertices(const SimplicialComplex& complex, double merge_distance);
+
+}  // namespace ballflow::geometry
