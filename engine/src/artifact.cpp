@@ -278,7 +278,7 @@ std::string make_header(const std::string& type, int version, const std::string&
   return json;
 }
 
-[[noreturn]] void refuse(const std::string& why) { throw Error(ExitCode::store, "bad artifact: " + why); }
+[[noreturn]] void refuse(const std::string& why) { throw BadArtifact("bad artifact: " + why); }
 
 std::uint64_t as_size(const SortedJson& value, const std::string& where) {
   if (!value.is_number_unsigned()) refuse(where + " is not an unsigned integer");
@@ -505,12 +505,13 @@ std::shared_ptr<const Artifact> Artifact::map(int file, const std::string& name)
     if (size == 0) return decode({}, nullptr);
     // Everything is read at once for the checksum: have the pages mapped in one go.
     void* address = ::mmap(nullptr, size, PROT_READ, MAP_SHARED | MAP_POPULATE, file, 0);
-    if (address == MAP_FAILED) refuse("it cannot be mapped: " + system_message(errno));
+    if (address == MAP_FAILED)
+      throw Error(ExitCode::store, "cannot map " + name + ": " + system_message(errno));
     const std::shared_ptr<const void> owner(
         address, [size](const void* at) { ::munmap(const_cast<void*>(at), size); });
     return decode({static_cast<const std::byte*>(address), size}, owner);
-  } catch (const Error& error) {
-    throw Error(error.code(), name + ": " + error.what(), error.hint());
+  } catch (const BadArtifact& error) {
+    throw BadArtifact(name + ": " + error.what());
   }
 }
 

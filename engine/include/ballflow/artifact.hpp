@@ -51,6 +51,12 @@ struct NamedArray {
   std::uint64_t bytes() const;
 };
 
+/// A byte string that is not an artifact.
+class BadArtifact : public Error {
+ public:
+  explicit BadArtifact(const std::string& what) : Error(ExitCode::store, what) {}
+};
+
 class Artifact {
  public:
   /// Seals arrays: sorts them, writes the header, computes digest and checksum. `owner` keeps all data

@@ -6,10 +6,21 @@
 //   <root>/pins/            digests that are never collected
 //   <root>/tmp/             files being written, <host>-<boot>-<pid>-<random>/
 //   <root>/quarantine/      blobs that failed their check
-//   <root>/files/           memoised digests of input files
+//   <root>/files/ab/cdef... memoised digests of input files, named by the SHA-256 of device and inode
+//   <root>/locks/           one file per key that is being computed
+//   <root>/CACHEDIR.TAG     tells backup programs to skip the folder
 //
 // Readers see whole files or none (written in tmp/, moved into place). A bad blob goes to quarantine and is
 // a miss. A full disk, a read-only or missing store mean "not cached"; they never fail a run.
+//
+// Trust: what is read from the store is believed (checksums find accidents, not forgeries), so nobody else
+// may have written it. Root, top folders, their subfolders and files must belong to the user or to the
+// superuser and must not be writable for group or others; that is asked of the opened folder, and everything
+// else is reached from there without following a symbolic link. The folders above the root do not matter: who
+// swaps the root between two runs presents a folder that fails the check. A sticky bit does not help (anyone
+// may still add files to a sticky folder), so it is no excuse.
+//
+// Every function may be called from several threads at once.
 #pragma once
 
 #include <cstdint>
@@ -33,6 +44,8 @@ struct OutputEntry {
   std::uint64_t bytes = 0;
   Checksum checksum;
   std::string summary;  // canonical JSON
+
+  friend bool operator==(const OutputEntry&, const OutputEntry&) = default;
 };
 
 /// What a node produced for one key.
@@ -44,60 +57,87 @@ struct ActionEntry {
 };
 
 struct StoreOptions {
-  std::string root;       // empty: no store, everything is a miss
+  std::string root;  // empty: no store, everything is a miss
   bool read_only = false;
 };
 
-/// The side effects of the store, so that tests can fake a full disk or an odd file system.
+/// The side effects of the store (file_system.hpp), so that tests can fake a full disk or an odd file system.
 class FileSystem;
 
 class Store {
+  struct Impl;
+
  public:
-  /// Opens or creates. Throws Error (code store) when the folder belongs to another user or others may
-  /// write to it. A folder that cannot be created or written is used read-only; why() says so.
+  /// Opens or creates. Throws Error (code store) when the folder cannot be trusted (see above). A folder that
+  /// cannot be created or written is used read-only; why() says so. Removes what dead processes of this
+  /// machine left in tmp/; scans nothing else.
   static std::shared_ptr<Store> open(const StoreOptions& options, std::shared_ptr<FileSystem> files = {});
   ~Store();
 
-  /// $BALLFLOW_CACHE, else $XDG_CACHE_HOME/ballflow, else ~/.cache/ballflow.
+  /// $BALLFLOW_CACHE, else $XDG_CACHE_HOME/ballflow, else ~/.cache/ballflow; empty when there is no home.
   static std::string default_root();
 
+  /// A damaged, truncated or foreign entry (another key, another format) is a miss. Its blobs may be missing.
   std::optional<ActionEntry> find_action(const Digest& key);
-  /// Publishes last, after its blobs. False when it could not be written (full disk, read-only).
-  bool put_action(const Digest& key, const ActionEntry& entry);
+  /// To be called last, after its blobs. An entry that is there and says the same (times aside) is kept; one
+  /// that is damaged or names other outputs is replaced at once and as a whole: the newest computation
+  /// counts, and readers see the old entry or the new one. False when it could not be written (full disk,
+  /// read-only).
+  bool put_action(const Digest& key, const ActionEntry& entry, bool sync = false);
 
+  /// Whether a file of the right name and size is there; load() may still find it damaged.
   bool has_blob(const OutputEntry& output);
-  /// Maps a blob, checks size and checksum. Null on a miss; a bad blob is moved to quarantine first.
+  /// Maps a blob, checks size, checksum, structure, type and summary. Null on a miss; a blob that is damaged
+  /// is moved to quarantine first. (A blob that is what its name says, but not what `output` says, stays.)
   ArtifactPtr load(const OutputEntry& output);
-  /// Writes the blob unless it is there. `sync`: flush to the disk before it is published.
+  /// Writes the blob unless a good one is there; a damaged one is replaced. `sync`: flush to the disk before
+  /// it is published. False when it could not be written.
   bool put_blob(const Artifact& artifact, bool sync);
 
   /// SHA-256 of a file's content, memoised by device, inode, size, mtime and ctime (not trusted when the
-  /// file is younger than 2 s). Throws Error when the file cannot be read.
+  /// file is younger than 2 s). Throws Error when it is no regular file, cannot be read or keeps changing.
   Digest file_digest(const std::string& path);
 
   /// Serialises computations of one key between processes: blocks until this process holds the lock of the
-  /// key (flock, freed by the kernel when a process dies). `give_up` is polled. Null when it gave up or the
-  /// store is read-only.
-  class Lock;
+  /// key (flock, freed by the kernel when a process dies). `give_up` is polled while it waits. Null when it
+  /// gave up, when the store is read-only or cannot lock: then compute without.
+  class Lock {
+   public:
+    ~Lock();
+    Lock(const Lock&) = delete;
+    Lock& operator=(const Lock&) = delete;
+
+   private:
+    friend class Store;
+    Lock() = default;
+    std::shared_ptr<Impl> store_;
+    std::string name_;
+    int file_ = -1;
+  };
   std::unique_ptr<Lock> lock(const Digest& key, const std::function<bool()>& give_up);
 
-  /// A new folder runs/<id>/ for the report of a run; empty when nothing can be written.
+  /// A new folder runs/<id>/ for the report of a run (runs/<id>-2/ when there is one, and so on); empty when
+  /// nothing can be written. `id`: letters, digits, '.', '_' and '-', not starting with a dot; else throws
+  /// Error.
   std::string new_run_folder(const std::string& id);
 
   struct Statistics {
     std::uint64_t blobs = 0, blob_bytes = 0, actions = 0, action_bytes = 0, quarantined = 0, runs = 0;
   };
+  /// Reads every folder of the store.
   Statistics statistics();
 
   const std::string& root() const { return root_; }
   bool read_only() const { return read_only_; }
   const std::string& why() const { return why_; }  // why it is read-only or absent
+  /// The first failure to write since open ("cannot write cas/...: No space left on device"), or empty.
+  std::string trouble() const;
 
  private:
   Store() = default;
   std::string root_, why_;
   bool read_only_ = false;
-  std::shared_ptr<FileSystem> files_;
+  std::shared_ptr<Impl> impl_;
 };
 
 }  // namespace ballflow

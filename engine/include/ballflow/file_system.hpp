@@ -1,0 +1,60 @@
+// The side effects of the store: the few system calls it makes. A test derives from FileSystem to count
+// calls, to fill the disk, to take a feature away or to turn the clock.
+//
+// Everything is relative to an open folder, as in openat(2): once the store has checked its root, nobody can
+// slip another folder under its path. Results are >= 0 or a negative errno value; EINTR is never returned.
+#pragma once
+
+#include <sys/stat.h>
+#include <sys/types.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace ballflow {
+
+class FileSystem {
+ public:
+  FileSystem() = default;
+  virtual ~FileSystem() = default;
+  FileSystem(const FileSystem&) = delete;
+  FileSystem& operator=(const FileSystem&) = delete;
+
+  /// `folder` for names that are absolute or relative to the working directory.
+  static const int working_folder;
+
+  virtual int open(int folder, const std::string& name, int flags, mode_t mode = 0);
+  /// May report a late write error (network file systems).
+  virtual int close(int file);
+  virtual ssize_t read(int file, void* data, std::size_t size);
+  virtual ssize_t write(int file, const void* data, std::size_t size);
+  virtual int sync(int file);
+
+  virtual int status(int file, struct stat& status);
+  /// Of a symbolic link itself, not of its target.
+  virtual int status(int folder, const std::string& name, struct stat& status);
+  /// 0 when entries can be made in the folder: neither its mode nor a read-only mount forbids it.
+  virtual int writable(int folder);
+
+  virtual int make_folder(int folder, const std::string& name, mode_t mode);
+  /// Atomic. Without `replace`: -EEXIST when the target exists; -EINVAL where the file system cannot promise
+  /// that.
+  virtual int rename(int from_folder, const std::string& from, int to_folder, const std::string& to,
+                     bool replace);
+  /// A second name for a file; -EEXIST when the target exists.
+  virtual int link(int from_folder, const std::string& from, int to_folder, const std::string& to);
+  virtual int remove(int folder, const std::string& name);
+  virtual int remove_folder(int folder, const std::string& name);
+  /// The names in an open folder, without "." and "..", in no particular order.
+  virtual int list(int folder, std::vector<std::string>& names);
+
+  /// Takes the flock of an open file; -EWOULDBLOCK while another open file holds it. close() gives it back.
+  virtual int try_lock(int file);
+  virtual bool process_alive(pid_t process);
+  /// Nanoseconds since 1970, on the clock that stamps files.
+  virtual std::int64_t now();
+};
+
+}  // namespace ballflow

@@ -1,0 +1,119 @@
+#include "ballflow/file_system.hpp"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+namespace ballflow {
+namespace {
+
+/// Repeats an interrupted call; turns -1 into -errno.
+template <class Call>
+auto call(Call function) -> decltype(function()) {
+  for (;;) {
+    const auto result = function();
+    if (result >= 0) return result;
+    if (errno != EINTR) return -errno;
+  }
+}
+
+}  // namespace
+
+const int FileSystem::working_folder = AT_FDCWD;
+
+int FileSystem::open(int folder, const std::string& name, int flags, mode_t mode) {
+  return call([&] { return ::openat(folder, name.c_str(), flags | O_CLOEXEC, mode); });
+}
+
+// Not repeated: Linux has closed the file even when it reports an interruption.
+int FileSystem::close(int file) { return ::close(file) == 0 || errno == EINTR ? 0 : -errno; }
+
+ssize_t FileSystem::read(int file, void* data, std::size_t size) {
+  return call([&] { return ::read(file, data, size); });
+}
+
+ssize_t FileSystem::write(int file, const void* data, std::size_t size) {
+  return call([&] { return ::write(file, data, size); });
+}
+
+int FileSystem::sync(int file) {
+  return call([&] { return ::fsync(file); });
+}
+
+int FileSystem::status(int file, struct stat& status) {
+  return call([&] { return ::fstat(file, &status); });
+}
+
+int FileSystem::status(int folder, const std::string& name, struct stat& status) {
+  return call([&] { return ::fstatat(folder, name.c_str(), &status, AT_SYMLINK_NOFOLLOW); });
+}
+
+int FileSystem::writable(int folder) {
+  return call([&] { return ::faccessat(folder, ".", W_OK | X_OK, AT_EACCESS); });
+}
+
+int FileSystem::make_folder(int folder, const std::string& name, mode_t mode) {
+  return call([&] { return ::mkdirat(folder, name.c_str(), mode); });
+}
+
+int FileSystem::rename(int from_folder, const std::string& from, int to_folder, const std::string& to,
+                       bool replace) {
+  return call([&] {
+    return ::renameat2(from_folder, from.c_str(), to_folder, to.c_str(), replace ? 0 : RENAME_NOREPLACE);
+  });
+}
+
+int FileSystem::link(int from_folder, const std::string& from, int to_folder, const std::string& to) {
+  return call([&] { return ::linkat(from_folder, from.c_str(), to_folder, to.c_str(), 0); });
+}
+
+int FileSystem::remove(int folder, const std::string& name) {
+  return call([&] { return ::unlinkat(folder, name.c_str(), 0); });
+}
+
+int FileSystem::remove_folder(int folder, const std::string& name) {
+  return call([&] { return ::unlinkat(folder, name.c_str(), AT_REMOVEDIR); });
+}
+
+int FileSystem::list(int folder, std::vector<std::string>& names) {
+  names.clear();
+  // A description of its own: reading moves the position, which dup() would share.
+  const int own = open(folder, ".", O_RDONLY | O_DIRECTORY);
+  if (own < 0) return own;
+  DIR* const entries = ::fdopendir(own);
+  if (entries == nullptr) {
+    const int error = -errno;
+    ::close(own);
+    return error;
+  }
+  errno = 0;
+  while (const dirent* entry = ::readdir(entries)) {
+    const char* const name = entry->d_name;
+    if (std::strcmp(name, ".") != 0 && std::strcmp(name, "..") != 0) names.emplace_back(name);
+    errno = 0;
+  }
+  const int error = -errno;
+  ::closedir(entries);
+  return error;
+}
+
+int FileSystem::try_lock(int file) {
+  return call([&] { return ::flock(file, LOCK_EX | LOCK_NB); });
+}
+
+bool FileSystem::process_alive(pid_t process) { return ::kill(process, 0) == 0 || errno != ESRCH; }
+
+std::int64_t FileSystem::now() {
+  timespec time{};
+  ::clock_gettime(CLOCK_REALTIME, &time);
+  return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
+}
+
+}  // namespace ballflow
