@@ -1,0 +1,45 @@
+# What `cmake --install` puts where, and the package that find_package(ballflow) finds:
+#
+#   bin/ballflow, bin/ballflow-render
+#   lib/ballflow/<family>.so              node libraries; the executable looks in ../lib/ballflow
+#   include/ballflow/*                    the boundary, the SDK and the engine
+#   include/ballflow/geometry/<family>/   options structs, functions and data types of the algorithms
+#   <libdir>/libballflow_*.a, <libdir>/cmake/ballflow/
+#   share/ballflow/graphs, share/ballflow/schemas
+include(CMakePackageConfigHelpers)
+
+get_property(geometry_targets GLOBAL PROPERTY BALLFLOW_GEOMETRY_TARGETS)
+get_property(plugin_targets GLOBAL PROPERTY BALLFLOW_PLUGIN_TARGETS)
+set(programs)
+foreach(program ballflow ballflow-render)
+  if(TARGET ${program})
+    list(APPEND programs ${program})
+  endif()
+endforeach()
+
+# What users run, without the tests.
+add_custom_target(ballflow_programs DEPENDS ${programs} ${plugin_targets})
+
+install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS ${plugin_targets} LIBRARY DESTINATION lib/ballflow)
+install(TARGETS ballflow_sdk ballflow_engine ${geometry_targets} EXPORT ballflowTargets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(DIRECTORY engine/include/ballflow DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+  FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp")
+install(DIRECTORY nodes/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ballflow/geometry FILES_MATCHING PATTERN "*.hpp")
+foreach(folder graphs schemas)
+  if(EXISTS ${PROJECT_SOURCE_DIR}/${folder})
+    install(DIRECTORY ${folder} DESTINATION ${CMAKE_INSTALL_DATADIR}/ballflow)
+  endif()
+endforeach()
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/ballflow)
+install(EXPORT ballflowTargets NAMESPACE ballflow:: DESTINATION ${package_dir})
+configure_package_config_file(cmake/ballflowConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/cmake/ballflowConfig.cmake
+  INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/cmake/ballflowConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES
+  ${CMAKE_CURRENT_BINARY_DIR}/cmake/ballflowConfig.cmake
+  ${CMAKE_CURRENT_BINARY_DIR}/cmake/ballflowConfigVersion.cmake
+  DESTINATION ${package_dir})
