@@ -12,17 +12,20 @@ enum class ExitCode { ok = 0, usage = 2, node_failed = 3, cancelled = 4, store =
 
 /// One finding about an input text. Printed as
 ///   file:line:column: error: message (at /json/pointer)
+///     the line, and below it a caret
 ///     hint
 struct Diagnostic {
   enum class Severity { error, warning };
   Severity severity = Severity::error;
   std::string file;
-  int line = 0;    // 1-based; 0 = the whole file
-  int column = 0;  // 1-based, in bytes
+  int line = 0;         // 1-based; 0 = the whole file
+  int column = 0;       // 1-based, in bytes
   std::string pointer;  // RFC 6901
   std::string message;
   std::string hint;
+  std::string source_line;  // the line in question, for the caret; may be empty
 
+  /// Several lines without a newline at the end.
   std::string text() const;
 };
 

@@ -5,12 +5,11 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <nlohmann/json.hpp>
 
 #include "ballflow/artifact.hpp"
 #include "ballflow/plugin.h"
@@ -21,9 +20,12 @@ using Json = nlohmann::ordered_json;
 
 struct ArrayDecl {
   std::string name, dtype, doc;
-  // First dimension by name ("n", "n+1": equal names mean equal lengths) unless rank 0 or fixed; others fixed.
+  // First dimension by name ("n", "n+1": equal names mean equal lengths) unless rank 0 or fixed; others
+  // fixed.
   std::vector<Json> shape;
   bool optional = false;
+
+  friend bool operator==(const ArrayDecl&, const ArrayDecl&) = default;
 };
 
 struct TypeDeclaration {
@@ -34,12 +36,16 @@ struct TypeDeclaration {
   std::vector<std::pair<std::string, std::string>> summary;  // field, doc
   std::string plugin_path;
   const bf_type* entry = nullptr;
+
+  bool same_content(const TypeDeclaration& other) const;
 };
 
 struct PortDecl {
   std::string name, type, doc;
   int type_version = 0;
   bool optional = false;
+
+  friend bool operator==(const PortDecl&, const PortDecl&) = default;
 };
 
 enum class ParamKind { number, integer, boolean, string, choice, file };
@@ -52,14 +58,18 @@ struct ParamDecl {
   bool hashed = true;
   std::optional<double> minimum, maximum, exclusive_minimum, exclusive_maximum;
   std::vector<std::pair<std::string, std::string>> choices;  // value, doc
-  std::vector<std::string> schemes;  // prefixes of file parameters that are not files
+  std::vector<std::string> schemes;                          // prefixes of file parameters that are not files
 
   /// Empty when `value` is acceptable, else why not ("must be at least 0, is -1").
   std::string refuse(const Json& value) const;
+
+  friend bool operator==(const ParamDecl&, const ParamDecl&) = default;
 };
 
 struct Citation {
   std::string key, where;
+
+  friend bool operator==(const Citation&, const Citation&) = default;
 };
 
 struct NodeDeclaration {
@@ -79,6 +89,7 @@ struct NodeDeclaration {
   const PortDecl* input(std::string_view name) const;
   const PortDecl* output(std::string_view name) const;
   const ParamDecl* param(std::string_view name) const;
+  bool same_content(const NodeDeclaration& other) const;
 };
 
 /// Parse declarations; throw Error (code plugin) that names the field that is missing or wrong.

@@ -22,8 +22,9 @@ class Registry {
  public:
   /// Looks for *.so in `extra` (files or folders), the folders of $BALLFLOW_PLUGIN_PATH, and next to the
   /// executable (../lib/ballflow). Reads the ABI note of each file before it is loaded. A library that
-  /// cannot be used is a refused candidate, not an error; a node or type declared twice with different
-  /// content throws Error (code plugin) that names both files.
+  /// cannot be used is a refused candidate, not an error, unless it is a file of `extra`; a node or type
+  /// declared twice with different content throws Error (code plugin) that names both files. Of two equal
+  /// declarations the first found stays. A file that is found twice is loaded once.
   static std::shared_ptr<const Registry> load(const std::vector<std::string>& extra = {});
   /// The default folder of node libraries of this executable.
   static std::string default_folder();
@@ -41,6 +42,8 @@ class Registry {
   const std::vector<PluginCandidate>& candidates() const { return candidates_; }
 
  private:
+  void drop_nodes_of_unknown_types();
+
   std::map<std::string, NodeDeclaration> nodes_;
   std::map<std::string, TypeDeclaration> types_;
   std::vector<PluginCandidate> candidates_;

@@ -1,0 +1,453 @@
+// Edges of the expanded graph: which output each input reads, whether the types agree, in which order nodes
+// can run.
+#include <algorithm>
+#include <queue>
+#include <set>
+
+#include "expand.hpp"
+#include "quote.hpp"
+
+namespace ballflow {
+
+namespace {
+
+class Connector {
+ public:
+  Connector(const Expansion& expansion, const Registry& registry, Findings& findings)
+      : expansion_(expansion), registry_(registry), findings_(findings) {
+    for (const auto& [id, type] : registry.types()) type_names_.push_back(id);
+    for (const auto& [id, node] : registry.nodes()) {
+      for (const std::vector<PortDecl>* ports : {&node.inputs, &node.outputs}) {
+        for (const PortDecl& port : *ports) {
+          if (registry.type(port.type) == nullptr) type_names_.push_back(port.type);
+        }
+      }
+    }
+    std::sort(type_names_.begin(), type_names_.end());
+    type_names_.erase(std::unique(type_names_.begin(), type_names_.end()), type_names_.end());
+    resolved_.resize(expansion.scopes.size());
+    for (std::size_t i = 0; i < expansion.scopes.size(); ++i)
+      resolved_[i].resize(expansion.scopes[i].file->outputs.size());
+  }
+
+  Dag run() {
+    check_interfaces();
+    edges_.resize(expansion_.leaves.size());
+    for (std::size_t i = 0; i < expansion_.scopes.size(); ++i) connect_nodes(i);
+    for (const GraphOutput& output : top().outputs) check_reference(0, output.from);
+    const std::vector<std::size_t> order = topological_order();
+    if (findings_.failed()) return {};
+    return build(order);
+  }
+
+ private:
+  const GraphFile& top() const { return *expansion_.scopes[0].file; }
+  const GraphFile& file_of(std::size_t scope) const { return *expansion_.scopes[scope].file; }
+
+  /// What a reference leads to: an output port, an input that is not connected, or something reported.
+  struct Target {
+    enum class Kind { broken, unconnected, leaf };
+    Kind kind = Kind::broken;
+    std::size_t leaf = 0;
+    std::string port;
+  };
+  struct Memo {
+    enum class State { fresh, visiting, done };
+    State state = State::fresh;
+    Target target;
+  };
+
+  struct PortType {
+    std::string id;
+    int version = 0;  // 0 where a graph input declares the type
+    bool optional = false;
+  };
+
+  void check_interfaces() {
+    for (std::size_t i = 0; i < expansion_.scopes.size(); ++i) {
+      const GraphFile& file = file_of(i);
+      for (const GraphInput& input : file.inputs) {
+        if (input.broken) continue;
+        if (!std::binary_search(type_names_.begin(), type_names_.end(), input.type)) {
+          std::string hint = did_you_mean(input.type, type_names_);
+          findings_.error(file, input.type_offset, "unknown type " + in_quotes(input.type),
+                          hint.empty() ? "types are " + listed(type_names_, 30) : hint);
+        } else if (i == 0 && !input.optional) {
+          findings_.error(file, input.offset,
+                          "input " + in_quotes(input.name) + " (" + input.type + ") is not connected",
+                          "a graph with inputs is a subgraph: run a graph that includes it");
+        }
+      }
+    }
+    if (top().outputs.empty() && !top().nodes.empty()) {
+      findings_.warning(top(), top().root.offset, "the graph has no \"outputs\"",
+                        "name what is wanted: \"outputs\": { \"balls\": \"node.port\" }");
+    }
+  }
+
+  bool known_type(const std::string& id) const {
+    return std::binary_search(type_names_.begin(), type_names_.end(), id);
+  }
+
+  /// Reports a port that does not exist. Nothing when the reference is broken or was reported before.
+  void check_reference(std::size_t scope, const Reference& reference) {
+    if (reference.kind != Reference::Kind::node) return;
+    const GraphFile& file = file_of(scope);
+    const GraphNode& producer = file.nodes[reference.index];
+    const Scope::Slot slot = expansion_.scopes[scope].slots[reference.index];
+    std::vector<std::string> ports;
+    std::string owner;
+    if (slot.kind == Scope::Slot::Kind::leaf) {
+      const NodeDeclaration& decl = *expansion_.leaves[slot.index].decl;
+      if (decl.output(reference.port) != nullptr) return;
+      for (const PortDecl& port : decl.outputs) ports.push_back(port.name);
+      owner = "node " + in_quotes(producer.name) + " (" + decl.id + ")";
+    } else if (slot.kind == Scope::Slot::Kind::scope) {
+      const GraphFile& child = file_of(slot.index);
+      if (child.output_index.contains(reference.port)) return;
+      for (const GraphOutput& output : child.outputs) ports.push_back(output.name);
+      owner = "subgraph " + in_quotes(producer.name) + " (" + child.source.file() + ")";
+    } else {
+      return;
+    }
+    std::string hint = did_you_mean(reference.port, ports);
+    if (hint.empty()) hint = ports.empty() ? "it has no outputs" : "outputs are " + listed(ports);
+    findings_.error(file, reference.offset, owner + " has no output " + in_quotes(reference.port),
+                    std::move(hint));
+  }
+
+  /// The type a reference has where it is written. Follows subgraph outputs down, never inputs up, so that
+  /// a wrong edge is reported on one side of an interface only.
+  std::optional<PortType> type_of(std::size_t scope, const Reference* reference) const {
+    for (std::size_t depth = 0; depth <= max_subgraph_depth; ++depth) {
+      if (reference->kind == Reference::Kind::broken) return std::nullopt;
+      if (reference->kind == Reference::Kind::input) {
+        const GraphInput& input = file_of(scope).inputs[reference->index];
+        if (input.broken || !known_type(input.type)) return std::nullopt;
+        return PortType{input.type, 0, input.optional};
+      }
+      const Scope::Slot slot = expansion_.scopes[scope].slots[reference->index];
+      if (slot.kind == Scope::Slot::Kind::broken) return std::nullopt;
+      if (slot.kind == Scope::Slot::Kind::leaf) {
+        const PortDecl* port = expansion_.leaves[slot.index].decl->output(reference->port);
+        if (port == nullptr) return std::nullopt;
+        return PortType{port->type, port->type_version, false};
+      }
+      const auto output = file_of(slot.index).output_index.find(reference->port);
+      if (output == file_of(slot.index).output_index.end()) return std::nullopt;
+      scope = slot.index;
+      reference = &file_of(scope).outputs[output->second].from;
+    }
+    return std::nullopt;
+  }
+
+  void connect_nodes(std::size_t scope) {
+    const GraphFile& file = file_of(scope);
+    for (std::size_t i = 0; i < file.nodes.size(); ++i) {
+      const Scope::Slot slot = expansion_.scopes[scope].slots[i];
+      for (const GraphNode::Input& input : file.nodes[i].inputs) check_reference(scope, input.from);
+      if (slot.kind == Scope::Slot::Kind::leaf) {
+        const NodeDeclaration& decl = *expansion_.leaves[slot.index].decl;
+        std::vector<Consumer> consumers;
+        for (const PortDecl& port : decl.inputs)
+          consumers.push_back({port.name, {port.type, port.type_version, port.optional}});
+        check_inputs(scope, file.nodes[i], "node " + in_quotes(file.nodes[i].name) + " (" + decl.id + ")",
+                     consumers);
+        for (const GraphNode::Input& input : file.nodes[i].inputs) {
+          if (decl.input(input.port) == nullptr) continue;
+          const Target target = resolve(scope, &input.from);
+          if (target.kind == Target::Kind::leaf) edges_[slot.index][input.port] = {target.leaf, target.port};
+        }
+      } else if (slot.kind == Scope::Slot::Kind::scope) {
+        const GraphFile& child = file_of(slot.index);
+        std::vector<Consumer> consumers;
+        for (const GraphInput& input : child.inputs) {
+          const bool usable = !input.broken && known_type(input.type);
+          consumers.push_back(
+              {input.name, {usable ? input.type : std::string(), 0, input.optional || !usable}});
+        }
+        check_inputs(scope, file.nodes[i],
+                     "subgraph " + in_quotes(file.nodes[i].name) + " (" + child.source.file() + ")",
+                     consumers);
+      }
+    }
+    for (const GraphOutput& output : file.outputs) {
+      if (scope != 0) check_reference(scope, output.from);
+    }
+    // Also outputs that nobody reads: a subgraph that only passes values around may run in a circle.
+    for (std::size_t i = 0; i < file.outputs.size(); ++i) {
+      if (resolved_[scope][i].state == Memo::State::fresh) resolve_output(scope, i);
+    }
+  }
+
+  struct Consumer {
+    std::string name;
+    PortType type;  // empty id: unknown, already reported
+  };
+
+  void check_inputs(std::size_t scope, const GraphNode& node, const std::string& owner,
+                    const std::vector<Consumer>& consumers) {
+    const GraphFile& file = file_of(scope);
+    std::vector<std::string> names;
+    for (const Consumer& consumer : consumers) {
+      names.push_back(consumer.name);
+      const GraphNode::Input* input = node.input(consumer.name);
+      const std::string what = "input " + in_quotes(consumer.name);
+      if (input == nullptr) {
+        if (!consumer.type.optional) {
+          findings_.error(file, node.offset, owner + " misses its " + what + " (" + consumer.type.id + ")",
+                          suggestion(scope, node, consumer));
+        }
+        continue;
+      }
+      const std::optional<PortType> given = type_of(scope, &input->from);
+      if (!given || consumer.type.id.empty()) continue;
+      const std::string source = in_quotes(written(file, input->from));
+      if (given->id != consumer.type.id) {
+        findings_.error(
+            file, input->from.offset,
+            source + " is a " + given->id + ", but " + what + " of " + owner + " takes a " + consumer.type.id,
+            suggestion(scope, node, consumer));
+      } else if (given->version != 0 && consumer.type.version != 0 &&
+                 given->version != consumer.type.version) {
+        findings_.error(file, input->from.offset,
+                        source + " is a " + given->id + " version " + std::to_string(given->version) +
+                            ", but " + what + " of " + owner + " takes version " +
+                            std::to_string(consumer.type.version),
+                        "the two node libraries were built for different versions of the type");
+      } else if (given->optional && !consumer.type.optional) {
+        findings_.error(file, input->from.offset,
+                        source + " is optional, but " + what + " of " + owner + " is required");
+      }
+    }
+    for (const GraphNode::Input& input : node.inputs) {
+      if (std::find(names.begin(), names.end(), input.port) != names.end()) continue;
+      std::string hint = did_you_mean(input.port, names);
+      if (hint.empty()) hint = names.empty() ? "it has no inputs" : "inputs are " + listed(names);
+      findings_.error(file, input.offset, owner + " has no input " + in_quotes(input.port), std::move(hint));
+    }
+  }
+
+  static std::string written(const GraphFile& file, const Reference& reference) {
+    return (reference.kind == Reference::Kind::input ? std::string("inputs")
+                                                     : file.nodes[reference.index].name) +
+           "." + reference.port;
+  }
+
+  /// An edge that would fit: the first output of the right type in the same file.
+  std::string suggestion(std::size_t scope, const GraphNode& consumer, const Consumer& wanted) const {
+    if (findings_.size() > 100) return {};
+    const GraphFile& file = file_of(scope);
+    const auto fits = [&](const std::string& edge) {
+      return "\"" + wanted.name + "\": " + in_quotes(edge) + " would be a " + wanted.type.id;
+    };
+    for (const GraphInput& input : file.inputs) {
+      if (input.type == wanted.type.id) return fits("inputs." + input.name);
+    }
+    for (std::size_t i = 0; i < file.nodes.size(); ++i) {
+      const Scope::Slot slot = expansion_.scopes[scope].slots[i];
+      if (&file.nodes[i] == &consumer) continue;
+      if (slot.kind == Scope::Slot::Kind::leaf) {
+        for (const PortDecl& port : expansion_.leaves[slot.index].decl->outputs) {
+          if (port.type == wanted.type.id) return fits(file.nodes[i].name + "." + port.name);
+        }
+      } else if (slot.kind == Scope::Slot::Kind::scope) {
+        for (const GraphOutput& output : file_of(slot.index).outputs) {
+          const std::optional<PortType> type = type_of(slot.index, &output.from);
+          if (type && type->id == wanted.type.id) return fits(file.nodes[i].name + "." + output.name);
+        }
+      }
+    }
+    return {};
+  }
+
+  Target resolve_output(std::size_t scope, std::size_t output) {
+    Reference reference;
+    reference.kind = Reference::Kind::node;
+    if (scope == 0) return resolve(0, &top().outputs[output].from);
+    reference.index = expansion_.scopes[scope].parent_node;
+    reference.port = file_of(scope).outputs[output].name;
+    return resolve(expansion_.scopes[scope].parent, &reference);
+  }
+
+  /// Follows a reference through subgraph outputs (down) and inputs (up) to the port that produces it.
+  Target resolve(std::size_t scope, const Reference* reference) {
+    std::vector<Memo*> visited;
+    std::vector<std::string> trail;
+    Target target;
+    while (true) {
+      if (reference->kind == Reference::Kind::broken) break;
+      const Scope& here = expansion_.scopes[scope];
+      if (reference->kind == Reference::Kind::input) {
+        if (here.parent == nowhere) {
+          target.kind = Target::Kind::unconnected;
+          break;
+        }
+        const GraphNode& inclusion = file_of(here.parent).nodes[here.parent_node];
+        const GraphNode::Input* binding = inclusion.input(reference->port);
+        if (binding == nullptr) {
+          target.kind = Target::Kind::unconnected;
+          break;
+        }
+        reference = &binding->from;
+        scope = here.parent;
+        continue;
+      }
+      const Scope::Slot slot = here.slots[reference->index];
+      if (slot.kind == Scope::Slot::Kind::broken) break;
+      if (slot.kind == Scope::Slot::Kind::leaf) {
+        if (expansion_.leaves[slot.index].decl->output(reference->port) != nullptr) {
+          target = {Target::Kind::leaf, slot.index, reference->port};
+        }
+        break;
+      }
+      const auto output = file_of(slot.index).output_index.find(reference->port);
+      if (output == file_of(slot.index).output_index.end()) break;
+      Memo& memo = resolved_[slot.index][output->second];
+      const std::string name = expansion_.scopes[slot.index].path + "." + reference->port;
+      if (memo.state == Memo::State::done) {
+        target = memo.target;
+        break;
+      }
+      if (memo.state == Memo::State::visiting) {
+        std::string cycle = name;
+        for (auto back = trail.rbegin(); back != trail.rend(); ++back) {
+          cycle += " -> " + *back;
+          if (*back == name) break;
+        }
+        findings_.error(file_of(slot.index), file_of(slot.index).outputs[output->second].from.offset,
+                        "cycle without a node in it: " + printable(cycle), "let the value come from a node");
+        break;
+      }
+      memo.state = Memo::State::visiting;
+      visited.push_back(&memo);
+      trail.push_back(name);
+      scope = slot.index;
+      reference = &file_of(scope).outputs[output->second].from;
+    }
+    for (Memo* memo : visited) *memo = {Memo::State::done, target};
+    return target;
+  }
+
+  /// Kahn's algorithm over the leaves, smallest path first. Cycles are reported, each once.
+  std::vector<std::size_t> topological_order() {
+    const std::size_t n = expansion_.leaves.size();
+    std::vector<std::size_t> by_path(n), rank(n), missing(n, 0), order;
+    for (std::size_t i = 0; i < n; ++i) by_path[i] = i;
+    std::sort(by_path.begin(), by_path.end(), [&](std::size_t a, std::size_t b) {
+      return expansion_.leaves[a].path < expansion_.leaves[b].path;
+    });
+    for (std::size_t i = 0; i < n; ++i) rank[by_path[i]] = i;
+    std::vector<std::vector<std::size_t>> consumers(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      missing[i] = edges_[i].size();
+      for (const auto& [port, edge] : edges_[i]) consumers[edge.node].push_back(i);
+    }
+    std::priority_queue<std::size_t, std::vector<std::size_t>, std::greater<>> ready;  // of ranks
+    for (std::size_t i = 0; i < n; ++i) {
+      if (missing[i] == 0) ready.push(rank[i]);
+    }
+    std::vector<bool> done(n, false);
+    const auto drain = [&] {
+      while (!ready.empty()) {
+        const std::size_t leaf = by_path[ready.top()];
+        ready.pop();
+        done[leaf] = true;
+        order.push_back(leaf);
+        for (const std::size_t consumer : consumers[leaf]) {
+          if (--missing[consumer] == 0 && !done[consumer]) ready.push(rank[consumer]);
+        }
+      }
+    };
+    drain();
+    std::vector<std::size_t> position(n, nowhere);
+    for (std::size_t first = 0; first < n; ++first) {
+      if (done[by_path[first]]) continue;
+      // Every node that is left waits for one that is left: going against the edges ends in a cycle.
+      std::vector<std::size_t> walk;
+      std::size_t leaf = by_path[first];
+      while (position[leaf] == nowhere) {
+        position[leaf] = walk.size();
+        walk.push_back(leaf);
+        for (const auto& [port, edge] : edges_[leaf]) {
+          if (done[edge.node]) continue;
+          leaf = edge.node;
+          break;
+        }
+      }
+      std::vector<std::size_t> cycle(walk.begin() + static_cast<std::ptrdiff_t>(position[leaf]), walk.end());
+      for (const std::size_t passed : walk) position[passed] = nowhere;
+      report_cycle(cycle, rank);
+      for (const std::size_t member : cycle) done[member] = true;
+      for (const std::size_t member : cycle) {
+        for (const std::size_t consumer : consumers[member]) {
+          if (--missing[consumer] == 0 && !done[consumer]) ready.push(rank[consumer]);
+        }
+      }
+      drain();
+    }
+    return order;
+  }
+
+  /// `cycle` runs against the edges.
+  void report_cycle(std::vector<std::size_t> cycle, const std::vector<std::size_t>& rank) {
+    std::reverse(cycle.begin(), cycle.end());
+    const auto smallest = std::min_element(cycle.begin(), cycle.end(),
+                                           [&](std::size_t a, std::size_t b) { return rank[a] < rank[b]; });
+    std::rotate(cycle.begin(), smallest, cycle.end());
+    std::string text;
+    for (const std::size_t leaf : cycle) text += expansion_.leaves[leaf].path + " -> ";
+    text += expansion_.leaves[cycle[0]].path;
+    const Leaf& leaf = expansion_.leaves[cycle[0]];
+    const GraphNode& node = file_of(leaf.scope).nodes[leaf.node];
+    Offset offset = node.offset;
+    for (const auto& [port, edge] : edges_[cycle[0]]) {
+      if (edge.node == cycle.back()) offset = node.input(port)->from.offset;
+    }
+    findings_.error(file_of(leaf.scope), offset, "cycle: " + printable(text), "remove one of these edges");
+  }
+
+  Dag build(const std::vector<std::size_t>& order) {
+    Dag dag;
+    dag.file = top().source.file();
+    dag.doc = top().doc;
+    for (std::size_t i = 0; i < top().params.size(); ++i)
+      dag.params[top().params[i].decl.name] = *expansion_.scopes[0].params[i];
+    std::vector<std::size_t> place(expansion_.leaves.size());
+    for (std::size_t i = 0; i < order.size(); ++i) place[order[i]] = i;
+    dag.nodes.resize(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const Leaf& leaf = expansion_.leaves[order[i]];
+      DagNode& node = dag.nodes[i];
+      node.path = leaf.path;
+      node.decl = leaf.decl;
+      node.params = leaf.params;
+      for (const auto& [port, edge] : edges_[order[i]]) node.inputs[port] = {place[edge.node], edge.port};
+      const GraphFile& file = file_of(leaf.scope);
+      const json_text::Position position = file.source.position(file.nodes[leaf.node].offset);
+      node.place = {file.source.file(), position.line, position.column,
+                    "/nodes/" + json_text::escape_pointer(file.nodes[leaf.node].name)};
+    }
+    for (const GraphOutput& output : top().outputs) {
+      const Target target = resolve(0, &output.from);
+      if (target.kind == Target::Kind::leaf)
+        dag.outputs.push_back({output.name, output.doc, {place[target.leaf], target.port}});
+    }
+    return dag;
+  }
+
+  const Expansion& expansion_;
+  const Registry& registry_;
+  Findings& findings_;
+  std::vector<std::string> type_names_;
+  std::vector<std::vector<Memo>> resolved_;            // by scope and output
+  std::vector<std::map<std::string, EdgeRef>> edges_;  // by leaf and input port; nodes are leaves
+};
+
+}  // namespace
+
+Dag connect(const Expansion& expansion, const Registry& registry, Findings& findings) {
+  return Connector(expansion, registry, findings).run();
+}
+
+}  // namespace ballflow

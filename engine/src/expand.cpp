@@ -1,0 +1,414 @@
+#include "expand.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include "quote.hpp"
+
+namespace ballflow {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Thrown when a limit is reached; its finding was added.
+struct Abandoned {};
+
+std::string canonical(const std::string& path) {
+  std::error_code error;
+  const fs::path result = fs::weakly_canonical(path, error);
+  return error ? path : result.string();
+}
+
+/// Overrides by "path.param" (".param" at the top), with a note which of them found their parameter.
+class Overrides {
+ public:
+  explicit Overrides(const std::vector<Override>& overrides)
+      : all_(overrides), used_(overrides.size(), false) {
+    for (std::size_t i = 0; i < all_.size(); ++i) by_name_[target(all_[i].name)].push_back(i);
+  }
+
+  static std::string target(const std::string& name) {
+    std::string path = name;
+    std::replace(path.begin(), path.end(), '.', '/');
+    const std::size_t last = path.rfind('/');
+    return last == std::string::npos ? "." + path : path.substr(0, last) + "." + path.substr(last + 1);
+  }
+
+  /// The override of a parameter, if there is one; the last wins.
+  const Override* find(const std::string& path, const std::string& param) {
+    if (all_.empty()) return nullptr;
+    const auto found = by_name_.find(path + "." + param);
+    if (found == by_name_.end()) return nullptr;
+    for (const std::size_t i : found->second) used_[i] = true;
+    return &all_[found->second.back()];
+  }
+
+  std::vector<const Override*> unused() const {
+    std::vector<const Override*> result;
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+      if (!used_[i]) result.push_back(&all_[i]);
+    }
+    return result;
+  }
+
+ private:
+  const std::vector<Override>& all_;
+  std::map<std::string, std::vector<std::size_t>> by_name_;
+  std::vector<bool> used_;
+};
+
+Diagnostic about_override(const Override& override_, std::string message, std::string hint) {
+  Diagnostic found;
+  found.file = printable("--set " + override_.name + "=" + override_.value);
+  found.message = std::move(message);
+  found.hint = std::move(hint);
+  return found;
+}
+
+std::vector<std::string> choice_names(const ParamDecl& param) {
+  std::vector<std::string> names;
+  for (const auto& choice : param.choices) names.push_back(choice.first);
+  return names;
+}
+
+std::string param_hint(const ParamDecl& param, const Json& value) {
+  if (param.kind == ParamKind::choice && value.is_string()) {
+    if (std::string hint = did_you_mean(value.get<std::string>(), choice_names(param)); !hint.empty())
+      return hint;
+  }
+  if (param.doc.empty()) return {};
+  return param.name + ": " + param.doc + (param.unit.empty() ? "" : " (" + param.unit + ")");
+}
+
+class Expander {
+ public:
+  Expander(const Registry& registry, const std::vector<Override>& overrides, Expansion& expansion,
+           Findings& findings)
+      : registry_(registry), overrides_(overrides), expansion_(expansion), findings_(findings) {
+    for (const auto& [id, node] : registry.nodes()) type_names_.push_back(id);
+  }
+
+  void run(std::unique_ptr<GraphFile> top) {
+    const std::string name = top->source.file();
+    const GraphFile& file = *top;
+    const std::string key = canonical(name);
+    expansion_.files[key] = std::move(top);
+    chain_.push_back({key, name});
+    std::vector<std::optional<Json>> params;
+    for (const GraphParam& param : file.params) {
+      if (const Override* override_ = overrides_.find("", param.decl.name)) {
+        params.push_back(param.broken ? std::nullopt : value_of(*override_, param.decl));
+      } else if (param.broken) {
+        params.push_back(std::nullopt);
+      } else if (param.decl.required) {
+        findings_.error(file, param.offset, "parameter " + in_quotes(param.decl.name) + " has no value",
+                        "give it one: --set " + param.decl.name + "=<" + kind_name(param.decl.kind) + ">");
+        params.push_back(std::nullopt);
+      } else {
+        params.push_back(param.decl.default_value);
+      }
+    }
+    instantiate(file, nowhere, nowhere, "", std::move(params));
+    report_unused_overrides();
+  }
+
+ private:
+  struct ChainLink {
+    std::string key, name;
+  };
+
+  std::optional<Json> value_of(const Override& override_, const ParamDecl& param) {
+    Json value;
+    if (!from_text(param, override_.value, value)) {
+      const char* wanted = param.kind == ParamKind::boolean   ? "true or false"
+                           : param.kind == ParamKind::integer ? "a whole number of 64 bits"
+                                                              : "a finite number";
+      findings_.add(about_override(
+          override_, in_quotes(param.name) + " must be " + wanted + ", is " + in_quotes(override_.value),
+          param_hint(param, value)));
+      return std::nullopt;
+    }
+    if (std::string why = param.refuse(value); !why.empty()) {
+      findings_.add(about_override(override_, in_quotes(param.name) + " " + why, param_hint(param, value)));
+      return std::nullopt;
+    }
+    return normalised(param, value);
+  }
+
+  /// The value written for `param` at a node, or from an override. Nothing when absent or wrong.
+  std::optional<Json> given_value(const Scope& scope, const GraphNode& node, const std::string& path,
+                                  const ParamDecl& param, bool& given) {
+    given = true;
+    if (const Override* override_ = overrides_.find(path, param.name)) return value_of(*override_, param);
+    const GraphNode::Param* written = node.param(param.name);
+    given = written != nullptr;
+    if (!given) return std::nullopt;
+    const std::optional<Json> value = written->value.evaluate(scope.params);
+    if (!value) return std::nullopt;
+    if (std::string why = param.refuse(*value); !why.empty()) {
+      findings_.error(*scope.file, written->value.offset, in_quotes(param.name) + " " + why,
+                      param_hint(param, *value));
+      return std::nullopt;
+    }
+    return normalised(param, *value);
+  }
+
+  void refuse_unknown_params(const GraphFile& file, const GraphNode& node, const std::string& owner,
+                             const std::vector<std::string>& known) {
+    for (const GraphNode::Param& param : node.params) {
+      if (std::find(known.begin(), known.end(), param.name) != known.end()) continue;
+      std::string hint = did_you_mean(param.name, known);
+      if (hint.empty())
+        hint = known.empty() ? owner + " has no parameters" : "parameters are " + listed(known);
+      findings_.error(file, param.offset, owner + " has no parameter " + in_quotes(param.name),
+                      std::move(hint));
+    }
+  }
+
+  void count_instance(const GraphFile& file, Offset offset) {
+    if (++instances_ <= max_instances) return;
+    findings_.error(file, offset,
+                    "the graph expands to more than " + std::to_string(max_instances) + " nodes");
+    throw Abandoned();
+  }
+
+  std::size_t instantiate(const GraphFile& file, std::size_t parent, std::size_t parent_node,
+                          const std::string& path, std::vector<std::optional<Json>> params) {
+    const std::size_t index = expansion_.scopes.size();
+    Scope& scope = expansion_.scopes.emplace_back();
+    scope.file = &file;
+    scope.parent = parent;
+    scope.parent_node = parent_node;
+    scope.path = path;
+    scope.params = std::move(params);
+    scope.slots.resize(file.nodes.size());
+    for (std::size_t i = 0; i < file.nodes.size(); ++i) {
+      const GraphNode& node = file.nodes[i];
+      const std::string node_path = path.empty() ? node.name : path + "/" + node.name;
+      count_instance(file, node.offset);
+      if (!node.broken)
+        scope.slots[i] = node.graph ? include(index, i, node_path) : add_leaf(index, i, node_path);
+      if (scope.slots[i].kind == Scope::Slot::Kind::broken) broken_paths_.push_back(node_path);
+    }
+    return index;
+  }
+
+  Scope::Slot add_leaf(std::size_t scope_index, std::size_t node_index, const std::string& path) {
+    const Scope& scope = expansion_.scopes[scope_index];
+    const GraphNode& node = scope.file->nodes[node_index];
+    const NodeDeclaration* decl = registry_.node(node.type);
+    if (decl == nullptr) {
+      std::string hint = did_you_mean(node.type, type_names_);
+      if (hint.empty())
+        hint = type_names_.empty() ? "no node libraries are loaded"
+                                   : "node types are " + listed(type_names_, 40);
+      findings_.error(*scope.file, node.type_offset, "unknown node type " + in_quotes(node.type),
+                      std::move(hint));
+      return {};
+    }
+    Leaf leaf;
+    leaf.path = path;
+    leaf.scope = scope_index;
+    leaf.node = node_index;
+    leaf.decl = decl;
+    std::vector<std::string> known;
+    for (const ParamDecl& param : decl->params) {
+      known.push_back(param.name);
+      bool given = false;
+      std::optional<Json> value = given_value(scope, node, path, param, given);
+      if (!given && param.required) {
+        findings_.error(*scope.file, node.offset,
+                        "node " + in_quotes(node.name) + " (" + decl->id +
+                            ") needs a value for its parameter " + in_quotes(param.name),
+                        param_hint(param, nullptr));
+      }
+      if (!given && !param.required) value = param.default_value;
+      if (value) leaf.params[param.name] = std::move(*value);
+    }
+    refuse_unknown_params(*scope.file, node, "node type " + in_quotes(decl->id), known);
+    expansion_.leaves.push_back(std::move(leaf));
+    return {Scope::Slot::Kind::leaf, expansion_.leaves.size() - 1};
+  }
+
+  Scope::Slot include(std::size_t scope_index, std::size_t node_index, const std::string& path) {
+    const Scope& scope = expansion_.scopes[scope_index];
+    const GraphNode& node = scope.file->nodes[node_index];
+    const std::optional<Json> name = node.graph->evaluate(scope.params);
+    if (!name) return {};
+    if (!name->is_string()) {
+      findings_.error(*scope.file, node.graph->offset,
+                      "\"graph\" must be the path of a file, " + described(*name));
+      return {};
+    }
+    std::string key;
+    const GraphFile* file = load(*scope.file, node.graph->offset, name->get<std::string>(), key);
+    if (file == nullptr) return {};
+
+    std::vector<std::optional<Json>> params;
+    std::vector<std::string> known;
+    for (const GraphParam& param : file->params) {
+      known.push_back(param.decl.name);
+      if (param.broken) {
+        overrides_.find(path, param.decl.name);
+        params.push_back(std::nullopt);
+        continue;
+      }
+      bool given = false;
+      std::optional<Json> value = given_value(scope, node, path, param.decl, given);
+      if (!given && param.decl.required) {
+        findings_.error(*scope.file, node.offset,
+                        "subgraph " + in_quotes(node.name) + " (" + file->source.file() +
+                            ") needs a value for its parameter " + in_quotes(param.decl.name),
+                        param_hint(param.decl, nullptr));
+      }
+      if (!given && !param.decl.required) value = param.decl.default_value;
+      params.push_back(std::move(value));
+    }
+    refuse_unknown_params(*scope.file, node, "subgraph " + in_quotes(file->source.file()), known);
+
+    chain_.push_back({key, file->source.file()});
+    const std::size_t child = instantiate(*file, scope_index, node_index, path, std::move(params));
+    chain_.pop_back();
+    return {Scope::Slot::Kind::scope, child};
+  }
+
+  /// The file that `includer` names, read at most once; null when it cannot be used.
+  const GraphFile* load(const GraphFile& includer, Offset offset, const std::string& name, std::string& key) {
+    const fs::path path = (fs::path(includer.source.file()).parent_path() / name).lexically_normal();
+    key = canonical(path.string());
+    std::string cycle;
+    bool found_self = false;
+    for (const ChainLink& link : chain_) {
+      found_self = found_self || link.key == key;
+      if (found_self) cycle += link.name + " -> ";
+    }
+    if (found_self) {
+      findings_.error(includer, offset, "the graph includes itself: " + printable(cycle + path.string()),
+                      "subgraphs cannot be recursive");
+      return nullptr;
+    }
+    if (chain_.size() >= max_subgraph_depth) {
+      findings_.error(includer, offset,
+                      "subgraphs are nested deeper than " + std::to_string(max_subgraph_depth) + " levels");
+      return nullptr;
+    }
+    if (const auto known = expansion_.files.find(key); known != expansion_.files.end()) {
+      return known->second.get();
+    }
+    std::error_code error;
+    if (name.find('\0') != std::string::npos || !fs::is_regular_file(path, error)) {
+      findings_.error(includer, offset, "no subgraph file " + in_quotes(path.string()), neighbours(path));
+      return nullptr;
+    }
+    if (unreadable_.contains(key)) return nullptr;
+    std::string text;
+    try {
+      text = read_text_file(path.string());
+    } catch (const Error& problem) {
+      findings_.error(includer, offset, problem.what(), problem.hint());
+      return nullptr;
+    }
+    expansion_.file_names.push_back(path.string());
+    std::unique_ptr<GraphFile> file =
+        read_graph_file(json_text::Source(path.string(), std::move(text)), findings_);
+    if (file == nullptr) {
+      unreadable_.insert(key);
+      return nullptr;
+    }
+    return (expansion_.files[key] = std::move(file)).get();
+  }
+
+  /// Which graph files there are where one was looked for.
+  static std::string neighbours(const fs::path& path) {
+    std::vector<std::string> names;
+    std::error_code error;
+    for (fs::directory_iterator entry(path.parent_path().empty() ? fs::path(".") : path.parent_path(), error),
+         end;
+         !error && entry != end && names.size() < 1000; entry.increment(error)) {
+      if (entry->path().extension() == ".json") names.push_back(entry->path().filename().string());
+    }
+    const std::string folder = path.parent_path().empty() ? "." : printable(path.parent_path().string());
+    if (error) return "there is no folder " + in_quotes(folder);
+    if (names.empty()) return "folder " + in_quotes(folder) + " has no *.json files";
+    std::sort(names.begin(), names.end());
+    const std::string near = did_you_mean(path.filename().string(), names);
+    return near + (near.empty() ? "" : " ") + "folder " + in_quotes(folder) + " has " + listed(names);
+  }
+
+  void report_unused_overrides() {
+    const std::vector<const Override*> unused = overrides_.unused();
+    if (unused.empty()) return;
+    std::vector<std::string> known;
+    for (const GraphParam& param : expansion_.scopes[0].file->params) known.push_back(param.decl.name);
+    for (const Leaf& leaf : expansion_.leaves) {
+      for (const ParamDecl& param : leaf.decl->params) known.push_back(leaf.path + "." + param.name);
+    }
+    for (std::size_t i = 1; i < expansion_.scopes.size(); ++i) {
+      for (const GraphParam& param : expansion_.scopes[i].file->params) {
+        known.push_back(expansion_.scopes[i].path + "." + param.decl.name);
+      }
+    }
+    std::sort(known.begin(), known.end());
+    for (const Override* override_ : unused) {
+      const std::string target = Overrides::target(override_->name);
+      const std::string path = target.substr(0, target.rfind('.'));
+      const auto covers = [&](const std::string& broken) {
+        return path == broken || path.starts_with(broken + "/");
+      };
+      if (std::any_of(broken_paths_.begin(), broken_paths_.end(), covers))
+        continue;  // its node has an error of its own
+      const std::string name = path.empty() ? target.substr(1) : target;
+      std::string hint = did_you_mean(name, known);
+      if (hint.empty())
+        hint = known.empty() ? "the graph has no parameters" : "parameters are " + listed(known, 20);
+      findings_.add(
+          about_override(*override_, "the graph has no parameter " + in_quotes(name), std::move(hint)));
+    }
+  }
+
+  const Registry& registry_;
+  Overrides overrides_;
+  Expansion& expansion_;
+  Findings& findings_;
+  std::vector<std::string> type_names_;
+  std::vector<ChainLink> chain_;
+  std::vector<std::string> broken_paths_;
+  std::set<std::string> unreadable_;
+  std::size_t instances_ = 0;
+};
+
+}  // namespace
+
+void expand(std::unique_ptr<GraphFile> top, const Registry& registry, const std::vector<Override>& overrides,
+            Expansion& expansion, Findings& findings) {
+  try {
+    Expander(registry, overrides, expansion, findings).run(std::move(top));
+  } catch (const Abandoned&) {
+    expansion.abandoned = true;
+  }
+}
+
+std::string read_text_file(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::error_code error;
+  if (!in || fs::is_directory(path, error)) {
+    const std::string why = fs::exists(path, error)
+                                ? (fs::is_directory(path, error) ? "it is a folder" : "access denied")
+                                : "there is no such file";
+    throw Error(ExitCode::usage, "cannot read " + in_quotes(path) + ": " + why);
+  }
+  std::string text;
+  constexpr std::size_t block = std::size_t{1} << 16;
+  while (in && text.size() <= json_text::max_size) {
+    const std::size_t size = text.size();
+    text.resize(size + block);
+    in.read(text.data() + size, static_cast<std::streamsize>(block));
+    text.resize(size + static_cast<std::size_t>(in.gcount()));
+  }
+  return text;
+}
+
+}  // namespace ballflow

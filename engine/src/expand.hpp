@@ -1,0 +1,66 @@
+// Graph files -> instances: every node of every inclusion of a subgraph, with its parameters resolved.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ballflow/graph.hpp"
+#include "graph_json.hpp"
+
+namespace ballflow {
+
+constexpr std::size_t max_instances = 1'000'000;
+constexpr std::size_t max_subgraph_depth = 50;
+
+constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
+
+/// One inclusion of a graph file; scope 0 is the top graph.
+struct Scope {
+  /// What a node of the file became: an index into leaves or scopes.
+  struct Slot {
+    enum class Kind { broken, leaf, scope };
+    Kind kind = Kind::broken;
+    std::size_t index = 0;
+  };
+  const GraphFile* file = nullptr;
+  std::size_t parent = nowhere;             // scope
+  std::size_t parent_node = nowhere;        // node of the parent's file
+  std::string path;                         // "prune", empty at the top
+  std::vector<std::optional<Json>> params;  // by GraphFile::params; nothing where an error was reported
+  std::vector<Slot> slots;                  // by GraphFile::nodes
+};
+
+/// One node that runs.
+struct Leaf {
+  std::string path;
+  std::size_t scope = 0;
+  std::size_t node = 0;  // of the scope's file
+  const NodeDeclaration* decl = nullptr;
+  std::map<std::string, Json> params;
+};
+
+struct Expansion {
+  std::map<std::string, std::unique_ptr<GraphFile>> files;  // by canonical path
+  std::vector<std::string> file_names;                      // as in messages, in order of first reading
+  std::deque<Scope> scopes;
+  std::vector<Leaf> leaves;
+  bool abandoned = false;  // a limit was reached; the rest is missing
+};
+
+/// Reads included files, resolves parameters and checks them. Errors become findings; what depends on a
+/// reported error is left out silently.
+void expand(std::unique_ptr<GraphFile> top, const Registry& registry, const std::vector<Override>& overrides,
+            Expansion& expansion, Findings& findings);
+
+/// Connects the leaves, checks ports, types and cycles, and puts the nodes into topological order.
+Dag connect(const Expansion& expansion, const Registry& registry, Findings& findings);
+
+/// Throws Error when it cannot be read or is larger than the limit of texts.
+std::string read_text_file(const std::string& path);
+
+}  // namespace ballflow

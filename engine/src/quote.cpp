@@ -1,0 +1,174 @@
+#include "quote.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "ballflow/error.hpp"
+
+namespace ballflow {
+
+namespace {
+
+/// Length of the printable UTF-8 character at the start of `text`, 0 when there is none.
+std::size_t printable_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char first = byte(0);
+  if (first < 0x80) return first >= 0x20 && first != 0x7f ? 1 : 0;
+  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+  if (first < 0xc2 || first > 0xf4 || text.size() < length) return 0;
+  std::uint32_t code = first & (0xffU >> (length + 1));
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+    code = code << 6 | (byte(i) & 0x3fU);
+  }
+  constexpr std::array<std::uint32_t, 5> smallest = {0, 0, 0x80, 0x800, 0x10000};
+  const bool surrogate = code >= 0xd800 && code <= 0xdfff;
+  const bool direction_mark = code >= 0x2028 && code <= 0x202e;  // would reorder the line on a terminal
+  if (code < smallest[length] || code > 0x10ffff || surrogate || code < 0xa0 || direction_mark) return 0;
+  return length;
+}
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+  std::string result;
+  result.reserve(text.size());
+  while (!text.empty()) {
+    const std::size_t length = printable_length(text);
+    if (length == 0) {
+      result += '?';
+      text.remove_prefix(1);
+    } else {
+      result += text.substr(0, length);
+      text.remove_prefix(length);
+    }
+  }
+  return result;
+}
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t longest = 120;
+  if (text.size() <= longest) return '"' + printable(text) + '"';
+  std::size_t cut = longest;
+  while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xc0) == 0x80) --cut;
+  return '"' + printable(text.substr(0, cut)) + "...\"";
+}
+
+std::string described(const Json& value) {
+  switch (value.type()) {
+    case Json::value_t::null:
+      return "is null";
+    case Json::value_t::object:
+      return "is an object";
+    case Json::value_t::array:
+      return "is an array";
+    case Json::value_t::string:
+      return "is the text " + in_quotes(value.get_ref<const std::string&>());
+    default:
+      return "is " + plain_text(value);
+  }
+}
+
+std::string shortest(double value) {
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  return {buffer.data(), end};
+}
+
+std::string plain_text(const Json& value) {
+  switch (value.type()) {
+    case Json::value_t::string:
+      return value.get<std::string>();
+    case Json::value_t::boolean:
+      return value.get<bool>() ? "true" : "false";
+    case Json::value_t::number_integer:
+      return std::to_string(value.get<std::int64_t>());
+    case Json::value_t::number_unsigned:
+      return std::to_string(value.get<std::uint64_t>());
+    case Json::value_t::number_float:
+      return shortest(value.get<double>());
+    case Json::value_t::null:
+      return "null";
+    default:
+      return "";
+  }
+}
+
+std::string listed(const std::vector<std::string>& names, std::size_t limit) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size() && i < limit; ++i)
+    text += (i == 0 ? "" : ", ") + in_quotes(names[i]);
+  if (names.size() > limit) text += " and " + std::to_string(names.size() - limit) + " more";
+  return text;
+}
+
+std::string did_you_mean(const std::string& name, const std::vector<std::string>& candidates) {
+  if (name.size() > 200) return {};
+  const std::string near = nearest(name, candidates);
+  return near.empty() ? std::string() : "did you mean " + in_quotes(near) + "?";
+}
+
+Json normalised(const ParamDecl& param, const Json& value) {
+  if (param.kind == ParamKind::number) return value.get<double>() + 0.0;  // -0 + 0 is 0
+  if (param.kind == ParamKind::integer) {
+    return value.is_number_float() ? static_cast<std::int64_t>(value.get<double>())
+                                   : value.get<std::int64_t>();
+  }
+  return value;
+}
+
+bool from_text(const ParamDecl& param, const std::string& text, Json& value) {
+  const char* end = text.data() + text.size();
+  switch (param.kind) {
+    case ParamKind::number: {
+      double number = 0;
+      const auto [stop, error] = std::from_chars(text.data(), end, number);
+      if (text.empty() || stop != end || error != std::errc() || !std::isfinite(number)) return false;
+      value = number;
+      return true;
+    }
+    case ParamKind::integer: {
+      std::int64_t number = 0;
+      const auto [stop, error] = std::from_chars(text.data(), end, number);
+      if (text.empty() || stop != end || error != std::errc()) return false;
+      value = number;
+      return true;
+    }
+    case ParamKind::boolean:
+      if (text != "true" && text != "false") return false;
+      value = text == "true";
+      return true;
+    default:
+      value = text;
+      return true;
+  }
+}
+
+namespace {
+constexpr std::array<const char*, 6> kind_names = {"number", "integer", "boolean",
+                                                   "string", "choice",  "file"};
+}
+
+const char* kind_name(ParamKind kind) { return kind_names[static_cast<std::size_t>(kind)]; }
+
+bool kind_from_name(std::string_view name, ParamKind& kind) {
+  for (std::size_t i = 0; i < kind_names.size(); ++i) {
+    if (name == kind_names[i]) {
+      kind = static_cast<ParamKind>(i);
+      return true;
+    }
+  }
+  return false;
+}
+
+bool is_identifier(std::string_view text) {
+  if (text.empty() || (text[0] >= '0' && text[0] <= '9')) return false;
+  for (const char c : text) {
+    if (!((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'))
+      return false;
+  }
+  return true;
+}
+
+}  // namespace ballflow

@@ -1,0 +1,47 @@
+// How foreign text appears in messages: never raw, so that no input can break a line or drive a terminal.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ballflow/node_decl.hpp"
+
+namespace ballflow {
+
+/// The text with control characters and invalid UTF-8 replaced by "?".
+std::string printable(std::string_view text);
+
+/// `printable` in double quotes; long text is cut.
+std::string in_quotes(std::string_view text);
+
+/// A JSON scalar as a message shows it ("is -1", "is the text \"abc\"", "is an array").
+std::string described(const Json& value);
+
+/// The shortest decimal text that reads back as the same number: 0.1, 3, 1e-05.
+std::string shortest(double value);
+
+/// A parameter value as text inside another text: numbers by `shortest`, texts without quotes.
+std::string plain_text(const Json& value);
+
+/// "a", "b" or "c"; the first `limit` names and how many more there are.
+std::string listed(const std::vector<std::string>& names, std::size_t limit = 12);
+
+/// Words of a "did you mean" hint; empty when nothing is near.
+std::string did_you_mean(const std::string& name, const std::vector<std::string>& candidates);
+
+/// The value as the node gets it: doubles for numbers (no -0), 64-bit integers for integers. `value` must be
+/// one that `param` does not refuse.
+Json normalised(const ParamDecl& param, const Json& value);
+
+/// Reads the text of a command line option as a value of the parameter's kind; false when it is none.
+bool from_text(const ParamDecl& param, const std::string& text, Json& value);
+
+/// "number", "integer", ...
+const char* kind_name(ParamKind kind);
+bool kind_from_name(std::string_view name, ParamKind& kind);
+
+/// Letters, digits and _; no digit first.
+bool is_identifier(std::string_view text);
+
+}  // namespace ballflow
