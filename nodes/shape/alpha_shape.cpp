@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -359,7 +360,8 @@ SimplicialComplex alpha_shape(const Balls& balls, const AlphaShapeOptions& optio
   }
   const double delta = tolerance(balls, options.tolerance);
   const Array<double> weights(squared_radii(balls, delta));
-  const RegularCells cells = regular_cells(balls.centers, weights, monitor);
+  PartMonitor triangulating(monitor, 0, 0.6);
+  const RegularCells cells = regular_cells(balls.centers, weights, triangulating);
   const Predicates predicates(balls.centers, weights);
   SimplicialComplex complex = Classification(cells, predicates, balls.size(), monitor).result();
   complex.centers = balls.centers;

@@ -38,6 +38,19 @@ class Monitor {
   }
 };
 
+/// Shows a step of a computation, whose progress runs from 0 to 1, as the part [begin, end] of the whole.
+class PartMonitor final : public Monitor {
+ public:
+  PartMonitor(Monitor& whole, double begin, double end) : whole_(whole), begin_(begin), end_(end) {}
+  void progress(double fraction) override { whole_.progress(begin_ + (end_ - begin_) * fraction); }
+  bool cancelled() override { return whole_.cancelled(); }
+  void warn(const std::string& text) override { whole_.warn(text); }
+
+ private:
+  Monitor& whole_;
+  double begin_, end_;
+};
+
 /// The monitor of callers that watch nothing.
 inline Monitor& no_monitor() {
   static Monitor monitor;
