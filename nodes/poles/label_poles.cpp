@@ -1,0 +1,154 @@
+#include "poles/label_poles.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "poles/winding_number.hpp"
+
+namespace ballflow::geometry {
+
+namespace {
+
+constexpr auto inner = static_cast<std::uint8_t>(PoleLabel::inner);
+constexpr auto outer = static_cast<std::uint8_t>(PoleLabel::outer);
+
+void check_mesh(const TriangleMesh& mesh) {
+  if (mesh.triangles.empty()) {
+    throw InputError("the mesh has no triangles, so it has no inside",
+                     "label with a mesh of the surface: reconstruct one from the points first");
+  }
+  if (const std::string broken = broken_invariant(mesh); !broken.empty()) {
+    throw InputError("the mesh is damaged: " + broken, "repair the mesh, or read it again");
+  }
+  if (bounding_box(mesh.vertices.span()).longest_edge() > 1e40) {
+    throw InputError("the longest edge of the mesh's bounding box exceeds 1e40 model units",
+                     "scale the model to a unit in which it has an ordinary size");
+  }
+}
+
+// Why the mesh has no well-defined inside everywhere.
+std::string why_not_closed(const SurfaceChain& chain, const TriangleMesh& mesh) {
+  if (chain.triangles.empty()) return "the mesh has only triangles with a repeated corner";
+  if (chain.boundary_edges > 0) {
+    const std::int64_t loops = mesh_topology(mesh).boundary_loops;
+    return "the mesh is open: " + std::to_string(chain.boundary_edges) + " boundary edges in " +
+           std::to_string(loops) + " loops";
+  }
+  if (chain.contradictions > 0) {
+    return "the mesh is not orientable: at " + std::to_string(chain.contradictions) +
+           " edges the two triangles face opposite ways however they are turned";
+  }
+  return "the mesh is not closed: " + std::to_string(chain.nonmanifold_edges) +
+         " edges belong to more than two triangles, which face one way more often than the other";
+}
+
+Balls select_label(const PoleSet& poles, std::uint8_t label) {
+  std::vector<Vec3> centers;
+  std::vector<double> radii;
+  std::vector<std::int64_t> offsets{0};
+  std::vector<std::int32_t> samples;
+  for (std::size_t i = 0; i < poles.size(); ++i) {
+    if (poles.labels[i] != label) continue;
+    centers.push_back(poles.centers[i]);
+    radii.push_back(poles.radii[i]);
+    const auto first = poles.defining_samples.begin() + poles.defining_offsets[i];
+    const auto last = poles.defining_samples.begin() + poles.defining_offsets[i + 1];
+    samples.insert(samples.end(), first, last);
+    offsets.push_back(static_cast<std::int64_t>(samples.size()));
+  }
+  return {std::move(centers), std::move(radii), std::move(offsets), std::move(samples)};
+}
+
+struct Counts {
+  std::int64_t inner = 0, uncertain = 0, negative = 0;
+};
+
+}  // namespace
+
+LabelledPoles label_poles(const PoleSet& poles, const TriangleMesh& mesh, const LabelPolesOptions& options,
+                          Monitor& monitor) {
+  check_mesh(mesh);
+  monitor.step(0);
+  const WindingNumber winding(mesh, monitor);
+  const bool closed = winding.chain().closed();
+  if (!closed && options.method == LabelMethod::mesh) {
+    throw InputError(why_not_closed(winding.chain(), mesh),
+                     "close the mesh, or label with method winding, which accepts open meshes");
+  }
+  monitor.step(0.3);
+
+  std::vector<WindingNumber::Value> values(poles.size());
+  std::atomic<std::size_t> done = 0;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, poles.size(), 512), [&](const auto& range) {
+    if (monitor.cancelled()) throw Cancelled();
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      if (poles.unbounded[i] == 0) values[i] = winding.around(poles.centers[i]);
+    }
+    const std::size_t before = done.fetch_add(range.size());
+    monitor.progress(0.3 + 0.6 * static_cast<double>(before) / static_cast<double>(poles.size()));
+  });
+  monitor.step(0.9);
+
+  Counts counts;
+  for (const auto& value : values) {
+    if (value.number > 0.5) ++counts.inner;
+    if (value.number < -0.5) ++counts.negative;
+  }
+  // Components of closed meshes face outwards; an open mesh faces the way that finds more inside.
+  const double sign = !closed && counts.negative > counts.inner ? -1 : 1;
+  LabelledPoles result;
+  result.turned_triangles =
+      sign > 0 ? winding.turned()
+               : static_cast<std::int64_t>(winding.chain().triangles.size()) - winding.turned();
+  result.method = closed && options.method != LabelMethod::winding ? LabelMethod::mesh : LabelMethod::winding;
+  std::vector<std::uint8_t> labels(poles.size(), outer);
+  counts = {};
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const double number = sign * values[i].number;
+    if (values[i].on_surface || (number >= 0.25 && number <= 0.75)) ++counts.uncertain;
+    if (number < -0.5) ++counts.negative;
+    if (!(number > 0.5) || values[i].on_surface) continue;
+    labels[i] = inner;
+    ++counts.inner;
+  }
+  const std::string uncertain =
+      std::to_string(counts.uncertain) + " of " + std::to_string(poles.size()) + " poles";
+  if (counts.inner == 0) {
+    throw InputError(
+        "no pole is inside the mesh (" + uncertain + " are near the middle between inside and outside)" +
+            (closed ? std::string() : "; " + why_not_closed(winding.chain(), mesh)),
+        "use the mesh of the solid that was sampled; an open sheet has no inside: close it first");
+  }
+  if (!closed && options.method == LabelMethod::automatic) {
+    monitor.warn(why_not_closed(winding.chain(), mesh) +
+                 "; poles were labelled by generalized winding number, " + uncertain + " are uncertain");
+  } else if (counts.uncertain > 0) {
+    monitor.warn(uncertain + (closed ? " lie exactly on the surface: they were labelled outer"
+                                     : " are uncertain: their winding number is between 0.25 and 0.75"));
+  }
+  if (counts.inner * 100 < static_cast<std::int64_t>(poles.sample_poles.size())) {
+    monitor.warn("only " + std::to_string(counts.inner) + " poles are inside for " +
+                 std::to_string(poles.sample_poles.size()) +
+                 " samples: the mesh bounds hardly any volume, or it is not the surface that was sampled");
+  }
+  if (counts.negative > 0) {
+    monitor.warn(std::to_string(counts.negative) +
+                 " poles have a negative winding number: a part of the mesh is inside out");
+  }
+
+  result.poles = poles;
+  result.poles.labels = std::move(labels);
+  result.uncertain = counts.uncertain;
+  result.inner = select_label(result.poles, inner);
+  result.outer = select_label(result.poles, outer);
+  monitor.step(1);
+  return result;
+}
+
+}  // namespace ballflow::geometry

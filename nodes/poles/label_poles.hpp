@@ -1,0 +1,53 @@
+// Inner and outer poles.
+#pragma once
+
+#include <cstdint>
+
+#include "types/balls.hpp"
+#include "types/monitor.hpp"
+#include "types/pole_set.hpp"
+#include "types/triangle_mesh.hpp"
+
+namespace ballflow::geometry {
+
+enum class LabelMethod : std::uint8_t { automatic, mesh, winding };
+
+struct LabelPolesOptions {
+  LabelMethod method = LabelMethod::automatic;
+};
+
+struct LabelledPoles {
+  PoleSet poles;  // the input with every label set to inner or outer
+  Balls inner;    // polar balls of the inner poles, in their order: the discrete medial axis transform
+  Balls outer;    // those of the outer poles; balls of unbounded poles end at the far-away points
+
+  LabelMethod method = LabelMethod::mesh;  // what was used: mesh or winding
+  // Poles whose label says little: winding number in [1/4, 3/4], or centre exactly on the surface.
+  std::int64_t uncertain = 0;
+  std::int64_t turned_triangles = 0;  // turned over to make the mesh consistently oriented
+};
+
+/// Labels a pole inner when the mesh winds around it by more than 1/2 [Aichholzer et al. 2007 label poles by
+/// a mesh too; Kornberger 2010, 3.4]. It is the Voronoi vertex that is labelled, once, not the pole of each
+/// sample.
+///
+/// - `mesh`: closed meshes, that is, every edge is run through equally often in both directions once
+/// triangles are
+///   turned over where they disagree. Signed crossings of a ray are counted with exact predicates: right at
+///   sharp edges, where the sample is too coarse, with components inside each other (a component of negative
+///   volume inside another one bounds a cavity) and with self-intersections (inside means wound around at
+///   least once)
+/// - `winding`: any mesh; open ones by the generalized winding number [Jacobson et al. 2013]
+/// - `automatic`: `mesh` when the mesh is closed, else `winding` and a warning that says why and how many
+/// poles
+///   are uncertain
+///
+/// Unbounded poles are outer. A pole exactly on the surface is outer.
+///
+/// Refuses (InputError) a mesh without triangles, indices out of range, a mesh that is not closed when `mesh`
+/// is asked for, and a mesh that contains no pole at all: an open sheet has no inside. Preconditions: `poles`
+/// and the mesh are in the same coordinates; broken_invariant(poles) is empty.
+LabelledPoles label_poles(const PoleSet& poles, const TriangleMesh& mesh, const LabelPolesOptions& options,
+                          Monitor& monitor = no_monitor());
+
+}  // namespace ballflow::geometry

@@ -1,0 +1,126 @@
+#include "poles/solid_angles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "poles/median_tree.hpp"
+
+namespace ballflow::geometry {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+double farthest_corner(const Box& box, Vec3 from) {
+  const Vec3 reach{std::max(from.x - box.lower.x, box.upper.x - from.x),
+                   std::max(from.y - box.lower.y, box.upper.y - from.y),
+                   std::max(from.z - box.lower.z, box.upper.z - from.z)};
+  return length(reach);
+}
+
+}  // namespace
+
+double arctangent(double y, double x) {
+  // atan(k / 8); an argument is reduced to the nearest k / 8, what remains is at most 1 / 16.
+  constexpr double table[9] = {0.0,
+                               0.12435499454676144,
+                               0.24497866312686414,
+                               0.35877067027057225,
+                               0.4636476090008061,
+                               0.5585993153435624,
+                               0.6435011087932844,
+                               0.7188299996216245,
+                               0.7853981633974483};
+  const double u = std::abs(x), v = std::abs(y);
+  const double small = std::min(u, v), large = std::max(u, v);
+  if (!(large > 0)) return 0;
+  const int k = static_cast<int>(small / large * 8 + 0.5);
+  const double from = 0.125 * k;
+  const double t = (small - from * large) / (large + from * small);
+  const double t2 = t * t;
+  const double series =
+      1 + t2 * (-1.0 / 3 + t2 * (1.0 / 5 + t2 * (-1.0 / 7 + t2 * (1.0 / 9 + t2 * (-1.0 / 11 + t2 / 13)))));
+  double angle = table[k] + t * series;
+  if (v > u) angle = pi / 2 - angle;
+  if (x < 0) angle = pi - angle;
+  return y < 0 ? -angle : angle;
+}
+
+double solid_angle_fraction(Vec3 a, Vec3 b, Vec3 c, Vec3 point) {
+  const Vec3 u = a - point, v = b - point, w = c - point;
+  const double lu = length(u), lv = length(v), lw = length(w);
+  const double numerator = dot(u, cross(v, w));
+  const double denominator = lu * lv * lw + dot(u, v) * lw + dot(v, w) * lu + dot(w, u) * lv;
+  return arctangent(numerator, denominator) / (2 * pi);
+}
+
+SolidAngles::SolidAngles(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
+                         Monitor& monitor) {
+  if (triangles.empty()) return;
+  MedianTree tree(vertices, triangles, monitor);
+  nodes_.resize(MedianTree::size(triangles.size()));
+  const auto corner = [&](std::int32_t t, std::size_t k) { return vertices[at(triangles[at(t)][k])]; };
+  const auto leaf = [&](std::size_t index, const Box& box, std::size_t first, std::size_t last) {
+    Node& node = nodes_[index];
+    node.link = static_cast<std::int32_t>(first);
+    node.count = static_cast<std::int32_t>(last - first);
+    Vec3 weighted;
+    for (std::size_t i = first; i < last; ++i) {
+      const Vec3 a = corner(tree.order[i], 0), b = corner(tree.order[i], 1), c = corner(tree.order[i], 2);
+      const Vec3 normal = 0.5 * cross(b - a, c - a);
+      const double area = length(normal);
+      node.normal = node.normal + normal;
+      node.area += area;
+      weighted = weighted + area / 3 * (a + b + c);
+    }
+    node.centroid = node.area > 0 ? 1 / node.area * weighted : 0.5 * (box.lower + box.upper);
+    node.radius = farthest_corner(box, node.centroid);
+  };
+  const auto inner = [&](std::size_t index, const Box& box, std::size_t second) {
+    const Node &p = nodes_[index + 1], &q = nodes_[second];
+    Node& node = nodes_[index];
+    node.link = static_cast<std::int32_t>(second);
+    node.normal = p.normal + q.normal;
+    node.area = p.area + q.area;
+    node.centroid = node.area > 0 ? 1 / node.area * (p.area * p.centroid + q.area * q.centroid)
+                                  : 0.5 * (box.lower + box.upper);
+    node.radius = farthest_corner(box, node.centroid);
+  };
+  tree.build(0, 0, triangles.size(), leaf, inner);
+  corners_.reserve(triangles.size());
+  for (const std::int32_t t : tree.order) corners_.push_back({corner(t, 0), corner(t, 1), corner(t, 2)});
+}
+
+SolidAngles::Sum SolidAngles::sum(Vec3 point, double tolerance) const {
+  Sum total;
+  if (!nodes_.empty()) add(0, point, tolerance, total);
+  return total;
+}
+
+void SolidAngles::add(std::int32_t index, Vec3 point, double tolerance, Sum& sum) const {
+  const Node& node = nodes_[at(index)];
+  const Vec3 to = node.centroid - point;
+  const double d = length(to);
+  // Every cluster may take a share of the tolerance in proportion to its area.
+  const double gap = d - node.radius;
+  const double room = tolerance * 2 * pi * gap * gap * gap;
+  if (gap > 0 && tolerance > 0 && node.radius * nodes_[0].area <= room) {
+    sum.value += dot(node.normal, to) / (4 * pi * d * d * d);
+    sum.error += node.area * node.radius / (2 * pi * gap * gap * gap);
+    return;
+  }
+  if (node.count == 0) {
+    add(index + 1, point, tolerance, sum);
+    add(node.link, point, tolerance, sum);
+    return;
+  }
+  for (std::int32_t k = node.link; k < node.link + node.count; ++k) {
+    const Corners& t = corners_[at(k)];
+    sum.value += solid_angle_fraction(t.a, t.b, t.c, point);
+  }
+}
+
+}  // namespace ballflow::geometry

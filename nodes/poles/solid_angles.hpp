@@ -1,0 +1,53 @@
+// Solid angles of triangles, summed hierarchically, in arithmetic that gives the same bits on every machine.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "types/monitor.hpp"
+#include "types/triangle_mesh.hpp"
+
+namespace ballflow::geometry {
+
+/// The angle of (x, y) against the x axis, in (-pi, pi]; 0 for (0, 0). Made of + - * / only, wrong by less
+/// than 1e-15: unlike that of the C library it does not differ between machines.
+double arctangent(double y, double x);
+
+/// Solid angle of the triangle seen from `point`, divided by 4 pi; positive when the triangle is
+/// counter-clockwise seen from the far side [Van Oosterom and Strackee 1983].
+double solid_angle_fraction(Vec3 a, Vec3 b, Vec3 c, Vec3 point);
+
+/// The sum of solid_angle_fraction over triangles: the generalized winding number of the set they form
+/// [Jacobson et al. 2013]. Far clusters are replaced by dipoles [Barill et al. 2018], here with a bound of
+/// the error: a cluster of area A within distance R of its centroid at distance d deviates by at most
+/// A R / (2 pi (d - R)^3), because the derivative of x / |x|^3 has norm 2 / |x|^3.
+class SolidAngles {
+ public:
+  SolidAngles(std::span<const Vec3> vertices, std::span<const Triangle> triangles, Monitor& monitor);
+
+  struct Sum {
+    double value = 0;
+    double error = 0;  // bound of the deviation from the exact sum, rounding not counted
+  };
+  /// The error stays below `tolerance`; 0 adds every triangle.
+  Sum sum(Vec3 point, double tolerance) const;
+
+ private:
+  struct Corners {
+    Vec3 a, b, c;
+  };
+  struct Node {
+    Vec3 centroid;
+    Vec3 normal;  // sum of area times unit normal
+    double area = 0;
+    double radius = 0;
+    std::int32_t link = 0;   // leaf: first triangle; else the second child
+    std::int32_t count = 0;  // of triangles in a leaf, else 0
+  };
+  void add(std::int32_t index, Vec3 point, double tolerance, Sum& sum) const;
+
+  std::vector<Node> nodes_;  // in preorder
+  std::vector<Corners> corners_;
+};
+
+}  // namespace ballflow::geometry
