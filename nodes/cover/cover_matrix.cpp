@@ -1,0 +1,267 @@
+#include "cover/cover_matrix.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cover/membership.hpp"
+#include "cover/sample_tree.hpp"
+
+namespace ballflow::geometry {
+namespace {
+
+// Balls handled between two looks at the monitor: some milliseconds of work.
+constexpr std::size_t block = 256;
+
+// Beyond this a sum of squares may overflow, and "in no ball" and "in every ball" look alike.
+constexpr double coordinate_limit = 1e140;
+
+std::string coordinates(Vec3 p) {
+  char text[96];
+  std::snprintf(text, sizeof text, "(%.9g, %.9g, %.9g)", p.x, p.y, p.z);
+  return text;
+}
+
+bool beyond_limit(Vec3 p) {
+  return !(std::abs(p.x) <= coordinate_limit && std::abs(p.y) <= coordinate_limit &&
+           std::abs(p.z) <= coordinate_limit);
+}
+
+/// Sorts sets of small integers by marking them in a two-level bitmap and reading it in order: linear in
+/// the set, where a comparison sort takes most of the time of the whole matrix.
+class SetSorter {
+ public:
+  explicit SetSorter(std::size_t universe) : words_(universe / 64 + 1), groups_(words_.size() / 64 + 1) {}
+
+  /// Writes the distinct values of [first, last) to `out`, ascending; returns one past the last.
+  std::int32_t* sort(std::int32_t* first, std::int32_t* last, std::int32_t* out) {
+    const auto size = static_cast<std::size_t>(last - first);
+    if (size < 16 || size * 8 < groups_.size()) {  // reading the bitmap would cost more
+      std::sort(first, last);
+      return std::unique_copy(first, last, out);
+    }
+    for (; first != last; ++first) {
+      const auto value = static_cast<std::size_t>(*first);
+      words_[value >> 6] |= std::uint64_t{1} << (value & 63);
+      groups_[value >> 12] |= std::uint64_t{1} << ((value >> 6) & 63);
+    }
+    for (std::size_t group = 0; group < groups_.size(); ++group) {
+      for (std::uint64_t used = std::exchange(groups_[group], 0); used != 0; used &= used - 1) {
+        const std::size_t word = group * 64 + static_cast<std::size_t>(std::countr_zero(used));
+        for (std::uint64_t bits = std::exchange(words_[word], 0); bits != 0; bits &= bits - 1) {
+          *out++ = static_cast<std::int32_t>(word * 64 + static_cast<std::size_t>(std::countr_zero(bits)));
+        }
+      }
+    }
+    return out;
+  }
+
+ private:
+  std::vector<std::uint64_t> words_, groups_;
+};
+
+/// Runs body(i) for all i of `order` in parallel, watching the monitor; `share` of the progress ends at
+/// `end`.
+template <class Body>
+void for_each_in_order(const std::vector<std::int32_t>& order, Monitor& monitor, double begin, double end,
+                       Body body) {
+  std::atomic<std::size_t> done{0};
+  const std::size_t blocks = (order.size() + block - 1) / block;
+  tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+    const std::size_t last = std::min(order.size(), (b + 1) * block);
+    for (std::size_t i = b * block; i < last; ++i) body(static_cast<std::size_t>(order[i]));
+    monitor.step(begin + (end - begin) * static_cast<double>(++done) / static_cast<double>(blocks));
+  });
+}
+
+void require_memory(std::int64_t entries, const CoverMatrixOptions& options) {
+  const double bytes = 4.0 * static_cast<double>(entries);
+  const double memory =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (entries <= options.max_entries && bytes <= memory) return;
+  char size[32];
+  std::snprintf(size, sizeof size, "%.1f GB", bytes / 1e9);
+  throw InputError(
+      "the matrix would have " + std::to_string(entries) + " entries (" + size + "); " +
+          (entries > options.max_entries
+               ? "max_entries is " + std::to_string(options.max_entries)
+               : "the machine has " + std::to_string(static_cast<std::int64_t>(memory / 1e9)) + " GB"),
+      "enlarge the balls less, thin the sample, or raise max_entries on a machine with more memory");
+}
+
+/// `balls` and one ball of radius 0 at each of `samples`, which it is defined by.
+Balls with_points(const Balls& balls, const PointSet& points, const std::vector<std::int32_t>& samples) {
+  if (samples.empty()) return balls;
+  std::vector<Vec3> centers(balls.centers.begin(), balls.centers.end());
+  std::vector<double> radii(balls.radii.begin(), balls.radii.end());
+  std::vector<std::int64_t> offsets(balls.defining_offsets.begin(), balls.defining_offsets.end());
+  std::vector<std::int32_t> defining(balls.defining_samples.begin(), balls.defining_samples.end());
+  const bool defined = !offsets.empty();
+  for (const std::int32_t s : samples) {
+    centers.push_back(points.points[static_cast<std::size_t>(s)]);
+    radii.push_back(0);
+    if (!defined) continue;
+    defining.push_back(s);
+    offsets.push_back(static_cast<std::int64_t>(defining.size()));
+  }
+  return {std::move(centers), std::move(radii), std::move(offsets), std::move(defining)};
+}
+
+std::vector<std::int32_t> numbers(std::size_t count) {
+  std::vector<std::int32_t> ids(count);
+  for (std::size_t i = 0; i < count; ++i) ids[i] = static_cast<std::int32_t>(i);
+  return ids;
+}
+
+std::string how_many(const std::vector<std::int32_t>& uncovered, std::size_t samples) {
+  return std::to_string(uncovered.size()) + " of " + std::to_string(samples) + " samples lie" +
+         (uncovered.size() == 1 ? "s" : "") + " in no ball";
+}
+
+}  // namespace
+
+void require_coverable(const Balls& balls, const PointSet& points) {
+  constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
+  const std::size_t m = balls.size(), n = points.points.size();
+  if (m > most || n > most || m + n > most) {
+    throw InputError(
+        std::to_string(m) + " balls and " + std::to_string(n) + " samples are more than 2^31 - 1",
+        "thin the sample");
+  }
+  const std::string scale = "scale the model to a size near 1";
+  for (std::size_t i = 0; i < m; ++i) {
+    if (beyond_limit(balls.centers[i]) || !(balls.radii[i] <= coordinate_limit)) {
+      throw InputError("ball " + std::to_string(i) + " at " + coordinates(balls.centers[i]) +
+                           " has a coordinate or radius beyond 1e140",
+                       scale);
+    }
+    for (const std::int32_t s : balls.samples_of(i)) {
+      if (s < 0 || static_cast<std::size_t>(s) >= n) {
+        throw InputError("ball " + std::to_string(i) + " is defined by sample " + std::to_string(s) + " of " +
+                             std::to_string(n),
+                         "connect the points from which these balls were made");
+      }
+    }
+  }
+  for (std::size_t j = 0; j < n; ++j) {
+    if (beyond_limit(points.points[j])) {
+      throw InputError("sample " + std::to_string(j) + " at " + coordinates(points.points[j]) +
+                           " has a coordinate beyond 1e140",
+                       scale);
+    }
+  }
+}
+
+CoverMatrix cover_matrix(const Balls& balls, const PointSet& points, const CoverMatrixOptions& options,
+                         Monitor& monitor) {
+  require_coverable(balls, points);
+  const std::size_t m = balls.size(), n = points.points.size();
+  const SampleTree tree(points.points);
+  monitor.step(0.05);
+  const SampleTree ball_tree(balls.centers);
+  monitor.step(0.1);
+
+  // Defining samples that the predicate misses by rounding are few, and are the same in both passes.
+  const auto for_each_missed = [&](std::size_t i, double reach, auto&& found) {
+    for (const std::int32_t s : balls.samples_of(i)) {
+      if (!in_reach(balls.centers[i], reach, points.points[static_cast<std::size_t>(s)])) found(s);
+    }
+  };
+
+  std::vector<std::int64_t> offsets(m + 1);
+  for_each_in_order(ball_tree.order(), monitor, 0.1, 0.4, [&](std::size_t i) {
+    const double reach = squared_reach(balls.radii[i]);
+    std::int64_t count = tree.count(balls.centers[i], reach);
+    for_each_missed(i, reach, [&](std::int32_t) { ++count; });
+    offsets[i + 1] = count;
+  });
+  const std::int64_t longest = *std::max_element(offsets.begin(), offsets.end());
+  for (std::size_t i = 0; i < m; ++i) offsets[i + 1] += offsets[i];
+  const std::int64_t entries = offsets[m];
+  require_memory(entries, options);
+
+  // Not initialised, and with room for the rows of uncovered samples; untouched pages cost nothing.
+  const std::shared_ptr<std::int32_t[]> columns(new std::int32_t[static_cast<std::size_t>(entries) + n]);
+  struct Scratch {
+    std::vector<std::int32_t> found;
+    SetSorter sorter;
+  };
+  tbb::enumerable_thread_specific<Scratch> scratch([&] {
+    return Scratch{std::vector<std::int32_t>(static_cast<std::size_t>(longest) + SampleTree::margin),
+                   SetSorter(n)};
+  });
+  for_each_in_order(ball_tree.order(), monitor, 0.4, 0.9, [&](std::size_t i) {
+    Scratch& mine = scratch.local();
+    const double reach = squared_reach(balls.radii[i]);
+    std::int32_t* last = tree.find(balls.centers[i], reach, mine.found.data());
+    for_each_missed(i, reach, [&](std::int32_t s) { *last++ = s; });
+    mine.sorter.sort(mine.found.data(), last, columns.get() + offsets[i]);
+  });
+
+  std::vector<std::uint8_t> covered(n);
+  for (std::int64_t k = 0; k < entries; ++k)
+    covered[static_cast<std::size_t>(columns[static_cast<std::size_t>(k)])] = 1;
+  std::vector<std::int32_t> uncovered;
+  for (std::size_t j = 0; j < n; ++j) {
+    if (covered[j] == 0) uncovered.push_back(static_cast<std::int32_t>(j));
+  }
+  monitor.step(0.95);
+
+  CoverMatrix result;
+  CoverState& cover = result.cover;
+  std::size_t total = static_cast<std::size_t>(entries);
+  std::vector<std::int32_t> column_ids = numbers(n);
+  if (uncovered.empty()) {
+    result.balls = balls;
+  } else if (options.uncovered == UncoveredPolicy::error) {
+    const std::int32_t first = uncovered.front();
+    throw InputError(how_many(uncovered, n) + ", the first is sample " + std::to_string(first) + " at " +
+                         coordinates(points.points[static_cast<std::size_t>(first)]),
+                     "enlarge the balls, or set uncovered to ball or report");
+  } else if (options.uncovered == UncoveredPolicy::ball) {
+    monitor.warn(how_many(uncovered, n) + "; each got a ball of radius 0");
+    result.balls = with_points(balls, points, uncovered);
+    for (const std::int32_t s : uncovered) {
+      columns[total++] = s;
+      offsets.push_back(static_cast<std::int64_t>(total));
+    }
+    uncovered.clear();
+  } else {
+    monitor.warn(how_many(uncovered, n) + "; the cover will not contain them");
+    result.balls = balls;
+    std::vector<std::int32_t> number(n, -1);
+    column_ids.clear();
+    for (std::size_t j = 0; j < n; ++j) {
+      if (covered[j] == 0) continue;
+      number[j] = static_cast<std::int32_t>(column_ids.size());
+      column_ids.push_back(static_cast<std::int32_t>(j));
+    }
+    for (std::size_t k = 0; k < total; ++k) columns[k] = number[static_cast<std::size_t>(columns[k])];
+  }
+
+  cover.balls = static_cast<std::int64_t>(result.balls.size());
+  cover.samples = static_cast<std::int64_t>(n);
+  cover.row_ids = numbers(result.balls.size());
+  cover.row_offsets = std::move(offsets);
+  cover.columns = Array<std::int32_t>(columns.get(), total, columns);
+  const auto cols = static_cast<std::int64_t>(column_ids.size());
+  const std::int64_t best = std::max<std::int64_t>(longest, 1);
+  cover.lower_bound = (cols + best - 1) / best;
+  cover.column_ids = std::move(column_ids);
+  cover.uncovered = std::move(uncovered);
+  monitor.step(1);
+  return result;
+}
+
+}  // namespace ballflow::geometry

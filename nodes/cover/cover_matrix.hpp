@@ -1,0 +1,45 @@
+// The covering matrix of balls and samples (Kornberger 2010, 3.6.1): c_ij = 1 iff sample j lies in ball i.
+#pragma once
+
+#include <cstdint>
+
+#include "types/balls.hpp"
+#include "types/cover_state.hpp"
+#include "types/monitor.hpp"
+#include "types/point_set.hpp"
+
+namespace ballflow::geometry {
+
+/// What becomes of a sample that lies in no ball.
+enum class UncoveredPolicy : std::uint8_t {
+  ball,    // it gets a ball of radius 0 at its place
+  error,   // InputError
+  report,  // it is left out of the matrix and listed in CoverState::uncovered
+};
+
+struct CoverMatrixOptions {
+  UncoveredPolicy uncovered = UncoveredPolicy::ball;
+  std::int64_t max_entries = 2'000'000'000;  // 4 bytes each; a larger matrix is refused before it is made
+};
+
+struct CoverMatrix {
+  CoverState cover;  // nothing chosen; every ball is a row, also one that covers nothing
+  Balls balls;       // the input, then the balls of radius 0, ascending by sample
+};
+
+/// Which ball covers which sample, decided by membership.hpp; the samples that define a ball are in it.
+///
+/// - The lower bound of the result is ceil(columns / longest row).
+/// - Rows ascend; the result does not depend on the number of threads.
+/// - Time O((m + n) log n + entries), memory 4 bytes per entry + 70 bytes per sample and ball.
+///
+/// Refused with InputError: coordinates or radii beyond 1e140, defining samples that are not in `points`, a
+/// matrix of more than `max_entries` entries or larger than the memory of the machine, uncovered samples
+/// under UncoveredPolicy::error.
+CoverMatrix cover_matrix(const Balls& balls, const PointSet& points, const CoverMatrixOptions& options = {},
+                         Monitor& monitor = no_monitor());
+
+/// Refuses coordinates and radii whose squares overflow, and defining samples out of range.
+void require_coverable(const Balls& balls, const PointSet& points);
+
+}  // namespace ballflow::geometry
