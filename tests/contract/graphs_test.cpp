@@ -1,0 +1,86 @@
+// Every graph in graphs/ is a runnable example: it loads, runs on a generated model, and its result does not
+// depend on the number of threads.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "ballflow/run.hpp"
+#include "test_data.hpp"
+
+namespace ballflow {
+namespace {
+
+class Silent final : public EventSink {
+ public:
+  void on(const Event&) override {}
+};
+
+const Registry& registry() {
+  static const auto instance = Registry::load();
+  return *instance;
+}
+
+std::vector<std::string> names_in(const std::string& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(test::source_file(folder))) {
+    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::vector<RunResult> run_with_threads(const Dag& dag, const std::vector<unsigned>& threads) {
+  std::vector<RunResult> results;
+  for (const unsigned count : threads) {
+    Silent silent;
+    RunOptions options;
+    options.threads = count;
+    Runner runner(dag, registry(), Store::open({}), options, silent);
+    results.push_back(runner.run());
+  }
+  return results;
+}
+
+void expect_equal_digests(const Dag& dag, const std::vector<RunResult>& results) {
+  for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
+    for (const RunResult& result : results) {
+      ASSERT_EQ(result.nodes[i].status, results[0].nodes[i].status) << dag.nodes[i].path << ": " << result.nodes[i].cause;
+      for (std::size_t port = 0; port < result.nodes[i].outputs.size(); ++port) {
+        EXPECT_EQ(result.nodes[i].outputs[port].digest, results[0].nodes[i].outputs[port].digest)
+            << dag.nodes[i].path << "." << result.nodes[i].outputs[port].port;
+      }
+    }
+  }
+}
+
+class EveryGraph : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryGraph, runs_on_a_generated_model_with_equal_digests_for_any_number_of_threads) {
+  const std::string file = test::source_file("graphs/" + GetParam() + ".json");
+  const Dag dag = load_graph(file, registry(), {{"input", "shape:torus?n=4000"}});
+  EXPECT_FALSE(dag.doc.empty());
+  const auto results = run_with_threads(dag, {1, 2, 4});
+  ASSERT_EQ(results[0].status, ExitCode::ok);
+  expect_equal_digests(dag, results);
+}
+
+INSTANTIATE_TEST_SUITE_P(Graphs, EveryGraph, testing::ValuesIn(names_in("graphs")),
+                         [](const auto& instance) { return instance.param; });
+
+class EveryStrategy : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryStrategy, prunes_in_any_graph_with_equal_digests_for_any_number_of_threads) {
+  const Dag dag = load_graph(test::source_file("graphs/medial_axis.json"), registry(),
+                             {{"input", "shape:torus?n=3000"}, {"strategy", GetParam()}});
+  const auto results = run_with_threads(dag, {1, 4});
+  ASSERT_EQ(results[0].status, ExitCode::ok);
+  expect_equal_digests(dag, results);
+  const DagNode* select = dag.find("select");
+  ASSERT_NE(select, nullptr);
+}
+
+INSTANTIATE_TEST_SUITE_P(Strategies, EveryStrategy, testing::ValuesIn(names_in("graphs/strategies")),
+                         [](const auto& instance) { return instance.param; });
+
+}  // namespace
+}  // namespace ballflow

@@ -1,0 +1,404 @@
+#include "ballflow/run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "ballflow/report.hpp"
+#include "test_data.hpp"
+#include "toy_nodes.hpp"
+
+namespace ballflow {
+namespace {
+
+class Silent final : public EventSink {
+ public:
+  void on(const Event& event) override {
+    if (event.kind == Event::Kind::node_started) started.push_back(event.node);
+    if (event.kind == Event::Kind::node_message) messages.push_back(event.text);
+    if (event.kind == Event::Kind::node_started && on_start) on_start();
+  }
+  std::vector<std::size_t> started;
+  std::vector<std::string> messages;
+  std::function<void()> on_start;
+};
+
+struct RunTest : testing::Test {
+  RunTest() {
+    registry.add_plugin(toy::plugin(), "toy");
+    toy::reset();
+  }
+
+  std::size_t node(Dag& dag, const std::string& path, const std::string& type,
+                   const std::map<std::string, EdgeRef>& inputs = {}, const std::map<std::string, Json>& params = {}) {
+    DagNode n;
+    n.path = path;
+    n.decl = registry.node(type);
+    for (const ParamDecl& param : n.decl->params) n.params[param.name] = param.default_value;
+    for (const auto& [name, value] : params) n.params[name] = value;
+    n.inputs = inputs;
+    dag.nodes.push_back(std::move(n));
+    return dag.nodes.size() - 1;
+  }
+
+  /// source -> round -> add(round, other) ; the graph's output is the sum.
+  Dag diamond(double value, double other_value) {
+    Dag dag;
+    dag.file = "diamond.json";
+    const auto source = node(dag, "source", "Source", {}, {{"value", value}});
+    const auto other = node(dag, "other", "Source", {}, {{"value", other_value}});
+    const auto round = node(dag, "round", "Round", {{"numbers", {source, "numbers"}}});
+    const auto sum = node(dag, "sum", "Add", {{"a", {round, "rounded"}}, {"b", {other, "numbers"}}});
+    dag.outputs.push_back({"sum", "", {sum, "sum"}});
+    return dag;
+  }
+
+  std::shared_ptr<Store> store() { return Store::open({folder.path() + "/cache", false}); }
+
+  RunResult run(const Dag& dag, std::shared_ptr<Store> where, unsigned threads = 2, Manifests earlier = {}) {
+    RunOptions options;
+    options.threads = threads;
+    Runner runner(dag, registry, std::move(where), options, events, std::move(earlier));
+    return runner.run();
+  }
+
+  static std::vector<NodeStatus> statuses(const RunResult& result) {
+    std::vector<NodeStatus> out;
+    for (const NodeResult& n : result.nodes) out.push_back(n.status);
+    return out;
+  }
+
+  Registry registry;
+  test::TempFolder folder;
+  Silent events;
+};
+
+constexpr auto hit = NodeStatus::hit;
+constexpr auto ran = NodeStatus::run;
+
+TEST_F(RunTest, first_run_executes_every_node_once) {
+  const RunResult result = run(diamond(1.5, 2), store());
+  EXPECT_EQ(result.status, ExitCode::ok);
+  EXPECT_EQ(statuses(result), (std::vector<NodeStatus>{ran, ran, ran, ran}));
+  EXPECT_EQ(toy::counters.source, 2);
+  EXPECT_EQ(toy::counters.round, 1);
+  EXPECT_EQ(toy::counters.add, 1);
+}
+
+TEST_F(RunTest, second_run_executes_nothing_and_reads_no_artifact) {
+  run(diamond(1.5, 2), store());
+  toy::reset();
+  std::filesystem::remove_all(folder.path() + "/cache/cas");  // not even needed
+  const RunResult result = run(diamond(1.5, 2), store());
+  EXPECT_EQ(statuses(result), (std::vector<NodeStatus>{hit, hit, hit, hit}));
+  EXPECT_EQ(toy::counters.source + toy::counters.round + toy::counters.add, 0);
+  EXPECT_TRUE(events.started.size() == 4u) << "only the first run started nodes";
+}
+
+TEST_F(RunTest, a_changed_parameter_reruns_only_its_descendants) {
+  run(diamond(1.5, 2), store());
+  toy::reset();
+  const RunResult result = run(diamond(1.5, 3), store());
+  EXPECT_EQ(statuses(result), (std::vector<NodeStatus>{hit, ran, hit, ran}));
+}
+
+TEST_F(RunTest, equal_content_from_a_changed_node_cuts_off_early) {
+  run(diamond(1.5, 2), store());
+  toy::reset();
+  const RunResult result = run(diamond(1.25, 2), store());  // rounds to the same
+  EXPECT_EQ(statuses(result), (std::vector<NodeStatus>{ran, hit, ran, hit}));
+}
+
+TEST_F(RunTest, digests_do_not_depend_on_threads_or_cache) {
+  const RunResult one = run(diamond(1.5, 2), store(), 1);
+  const RunResult four = run(diamond(1.5, 2), Store::open({}), 4);
+  for (std::size_t i = 0; i < one.nodes.size(); ++i) {
+    EXPECT_EQ(one.nodes[i].outputs.at(0).digest, four.nodes[i].outputs.at(0).digest);
+  }
+}
+
+TEST_F(RunTest, equal_computations_run_once) {
+  Dag dag;
+  const auto a = node(dag, "a", "Source");
+  const auto b = node(dag, "b", "Source");
+  const auto sum = node(dag, "sum", "Add", {{"a", {a, "numbers"}}, {"b", {b, "numbers"}}});
+  dag.outputs.push_back({"sum", "", {sum, "sum"}});
+  for (int i = 0; i < 20; ++i) {
+    toy::reset();
+    const RunResult result = run(dag, Store::open({folder.path() + "/c" + std::to_string(i), false}));
+    EXPECT_EQ(result.status, ExitCode::ok);
+    EXPECT_EQ(toy::counters.source, 1);
+  }
+}
+
+TEST_F(RunTest, works_without_a_store) {
+  Dag dag = diamond(1.5, 2);
+  Silent sink;
+  Runner runner(dag, registry, Store::open({}), {}, sink);
+  EXPECT_EQ(runner.run().status, ExitCode::ok);
+  const ArtifactPtr sum = runner.artifact(dag.outputs[0].from);
+  const auto* values = static_cast<const double*>(sum->find("values")->data);
+  EXPECT_EQ(values[0], 3);
+}
+
+TEST_F(RunTest, nodes_that_no_output_needs_do_not_run) {
+  Dag dag = diamond(1, 2);
+  node(dag, "extra", "Source", {}, {{"value", 9}});
+  const RunResult result = run(dag, store());
+  EXPECT_EQ(result.nodes[4].status, NodeStatus::skipped);
+  EXPECT_EQ(toy::counters.source, 2);
+}
+
+TEST_F(RunTest, a_failing_node_names_cause_and_hint_and_keeps_what_was_computed) {
+  Dag dag;
+  const auto source = node(dag, "source", "Source");
+  const auto fail = node(dag, "fail", "Fail", {{"numbers", {source, "numbers"}}});
+  const auto after = node(dag, "after", "Round", {{"numbers", {fail, "numbers"}}});
+  dag.outputs.push_back({"out", "", {after, "rounded"}});
+  const RunResult result = run(dag, store());
+  EXPECT_EQ(result.status, ExitCode::node_failed);
+  EXPECT_EQ(statuses(result), (std::vector<NodeStatus>{ran, NodeStatus::failed, NodeStatus::skipped}));
+  EXPECT_EQ(result.nodes[fail].cause, "number 7 is odd");
+  EXPECT_EQ(result.nodes[fail].hint, "use even numbers");
+  const RunResult again = run(dag, store());
+  EXPECT_EQ(again.nodes[source].status, hit);
+}
+
+TEST_F(RunTest, an_output_that_breaks_its_type_is_a_failure_of_the_node) {
+  Dag dag;
+  const auto bad = node(dag, "bad", "Negative");
+  dag.outputs.push_back({"out", "", {bad, "numbers"}});
+  const RunResult result = run(dag, store());
+  EXPECT_EQ(result.nodes[bad].status, NodeStatus::failed);
+  EXPECT_NE(result.nodes[bad].cause.find("number 1 is negative"), std::string::npos) << result.nodes[bad].cause;
+}
+
+TEST_F(RunTest, cancelling_ends_the_run_soon_and_keeps_what_is_complete) {
+  Dag dag;
+  const auto source = node(dag, "source", "Source");
+  const auto slow = node(dag, "slow", "Slow", {{"numbers", {source, "numbers"}}});
+  dag.outputs.push_back({"out", "", {slow, "numbers"}});
+  std::atomic<bool> cancel{false};
+  RunOptions options;
+  options.cancel = &cancel;
+  events.on_start = [&] {
+    if (events.started.size() == 2) cancel = true;
+  };
+  Runner runner(dag, registry, store(), options, events);
+  const auto start = std::chrono::steady_clock::now();
+  const RunResult result = runner.run();
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+  EXPECT_EQ(result.status, ExitCode::cancelled);
+  EXPECT_EQ(result.nodes[slow].status, NodeStatus::cancelled);
+  Dag only_source;
+  only_source.nodes = {dag.nodes[0]};
+  only_source.outputs.push_back({"n", "", {0, "numbers"}});
+  EXPECT_EQ(run(only_source, store()).nodes[0].status, hit);
+}
+
+TEST_F(RunTest, a_lost_artifact_is_made_again_when_it_is_needed) {
+  run(diamond(1.5, 2), store());
+  toy::reset();
+  std::filesystem::remove_all(folder.path() + "/cache/cas");
+  const RunResult result = run(diamond(1.5, 3), store());
+  EXPECT_EQ(result.status, ExitCode::ok);
+  EXPECT_EQ(statuses(result), (std::vector<NodeStatus>{ran, ran, ran, ran}));
+  EXPECT_EQ(toy::counters.source, 2) << "both sources: one changed, one lost";
+}
+
+TEST_F(RunTest, a_node_that_is_not_deterministic_is_reported_and_its_descendants_are_computed_anew) {
+  Dag dag;
+  const auto noisy = node(dag, "noisy", "Noisy");
+  const auto other = node(dag, "other", "Source", {}, {{"value", 2.0}, {"count", 1}});
+  const auto sum = node(dag, "sum", "Add", {{"a", {noisy, "numbers"}}, {"b", {other, "numbers"}}});
+  dag.outputs.push_back({"sum", "", {sum, "sum"}});
+  run(dag, store());
+  std::filesystem::remove_all(folder.path() + "/cache/cas");
+  dag.nodes[other].params["value"] = 5.0;  // sum must run: it needs the lost numbers of noisy
+  events.messages.clear();
+  Runner runner(dag, registry, store(), {}, events);
+  EXPECT_EQ(runner.run().status, ExitCode::ok);
+  ASSERT_FALSE(events.messages.empty());
+  EXPECT_NE(events.messages[0].find("not deterministic"), std::string::npos);
+  const ArtifactPtr result = runner.artifact(dag.outputs[0].from);
+  EXPECT_EQ(static_cast<const double*>(result->find("values")->data)[0], 7) << "2 from the second execution + 5";
+}
+
+TEST_F(RunTest, warnings_are_shown_again_on_a_hit) {
+  Dag dag;
+  const auto source = node(dag, "source", "Source");
+  const auto sum = node(dag, "sum", "Add", {{"a", {source, "numbers"}}});
+  dag.outputs.push_back({"sum", "", {sum, "sum"}});
+  run(dag, store());
+  events.messages.clear();
+  const RunResult result = run(dag, store());
+  EXPECT_EQ(result.nodes[sum].status, hit);
+  EXPECT_EQ(result.nodes[sum].warnings, std::vector<std::string>{"nothing to add"});
+  EXPECT_EQ(events.messages, std::vector<std::string>{"nothing to add"});
+}
+
+TEST_F(RunTest, nodes_whose_estimates_exceed_the_budget_together_never_run_together) {
+  Dag dag;
+  for (int i = 0; i < 6; ++i) {
+    const auto heavy = node(dag, "heavy" + std::to_string(i), "Heavy", {}, {{"value", static_cast<double>(i)}});
+    dag.outputs.push_back({"h" + std::to_string(i), "", {heavy, "numbers"}});
+  }
+  RunOptions options;
+  options.threads = 4;
+  options.memory_bytes = 100;
+  Runner runner(dag, registry, store(), options, events);
+  EXPECT_EQ(runner.run().status, ExitCode::ok);
+  EXPECT_EQ(toy::counters.heavy, 6);
+  EXPECT_EQ(toy::counters.heavy_most, 1);
+}
+
+TEST_F(RunTest, two_runs_at_once_on_one_store_compute_everything_once) {
+  Dag dag;
+  const auto source = node(dag, "source", "Source");
+  const auto slow = node(dag, "slow", "Slow", {{"numbers", {source, "numbers"}}}, {{"seconds", 0.3}});
+  dag.outputs.push_back({"out", "", {slow, "numbers"}});
+  RunResult results[2];
+  std::thread threads[2];
+  for (int i = 0; i < 2; ++i) {
+    threads[i] = std::thread([&, i] {
+      Silent sink;
+      Runner runner(dag, registry, store(), {}, sink);
+      results[i] = runner.run();
+    });
+  }
+  for (std::thread& t : threads) t.join();
+  EXPECT_EQ(toy::counters.slow, 1);
+  EXPECT_EQ(results[0].nodes[slow].outputs[0].digest, results[1].nodes[slow].outputs[0].digest);
+}
+
+TEST_F(RunTest, reasons_name_the_field_that_changed) {
+  const RunResult first = run(diamond(1.5, 2), store());
+  const Dag dag = diamond(1.5, 3);
+  Manifests earlier;
+  for (std::size_t i = 0; i < dag.nodes.size(); ++i) earlier[dag.nodes[i].path] = first.nodes[i].manifest;
+  const RunResult second = run(dag, store(), 2, earlier);
+  EXPECT_EQ(second.nodes[1].reason, "params.value 2.0 -> 3.0");
+  EXPECT_EQ(second.nodes[3].reason, "input b: other content");
+}
+
+TEST_F(RunTest, plan_foretells_hit_run_and_maybe) {
+  using V = NodePlan::Verdict;
+  const auto verdicts = [](const std::vector<NodePlan>& plans) {
+    std::vector<V> out;
+    for (const NodePlan& p : plans) out.push_back(p.verdict);
+    return out;
+  };
+  auto cache = store();
+  EXPECT_EQ(verdicts(plan(diamond(1.5, 2), *cache, 0, {})), (std::vector<V>{V::run, V::run, V::maybe, V::maybe}));
+  run(diamond(1.5, 2), cache);
+  EXPECT_EQ(verdicts(plan(diamond(1.5, 2), *cache, 0, {})), (std::vector<V>{V::hit, V::hit, V::hit, V::hit}));
+  EXPECT_EQ(verdicts(plan(diamond(1.5, 3), *cache, 0, {})), (std::vector<V>{V::hit, V::run, V::hit, V::maybe}));
+}
+
+TEST_F(RunTest, the_report_holds_status_summary_and_times) {
+  const Dag dag = diamond(1.5, 2);
+  const RunResult result = run(dag, store());
+  const Json report = run_report("id", dag, result);
+  EXPECT_EQ(report["status"], "ok");
+  EXPECT_EQ(report["nodes"]["sum"]["status"], "run");
+  EXPECT_EQ(report["nodes"]["source"]["params"]["value"], 1.5);
+  EXPECT_EQ(report["outputs"]["sum"]["summary"]["count"], 3);
+  EXPECT_EQ(report["outputs"]["sum"]["from"], "sum.sum");
+}
+
+struct KeyTest : RunTest {
+  Digest key(const DagNode& n, const std::map<std::string, OutputEntry>& inputs = {}, std::uint64_t seed = 0) {
+    return action_key(n, inputs, seed, *store()).key;
+  }
+};
+
+TEST_F(KeyTest, names_and_seeds_of_nodes_without_randomness_do_not_enter) {
+  Dag dag;
+  node(dag, "a", "Source");
+  node(dag, "other/name", "Source");
+  EXPECT_EQ(key(dag.nodes[0]), key(dag.nodes[1]));
+  EXPECT_EQ(key(dag.nodes[0], {}, 1), key(dag.nodes[0], {}, 2));
+}
+
+TEST_F(KeyTest, every_field_of_the_manifest_changes_the_key_and_is_named) {
+  Dag dag;
+  node(dag, "a", "Source");
+  OutputEntry input{"a", "Numbers", 1, sha256("x"), 1, {}, "{}"};
+  NodeDeclaration decl = *dag.nodes[0].decl;
+  decl.libraries["CGAL"] = "5.5.1";
+  decl.uses_seed = true;
+  dag.nodes[0].decl = &decl;
+  const ActionKey base = action_key(dag.nodes[0], {{"a", input}}, 0, *store());
+  const auto expect_change = [&](const DagNode& n, const OutputEntry& in, std::uint64_t seed, const std::string& named) {
+    const ActionKey other = action_key(n, {{"a", in}}, seed, *store());
+    EXPECT_NE(other.key, base.key) << named;
+    const auto differences = manifest_differences(base.manifest, other.manifest);
+    ASSERT_EQ(differences.size(), 1u) << named;
+    EXPECT_NE(differences[0].find(named), std::string::npos) << differences[0];
+  };
+  DagNode changed = dag.nodes[0];
+  changed.params["value"] = 2.0;
+  expect_change(changed, input, 0, "params.value");
+  changed = dag.nodes[0];
+  changed.params["count"] = 4;
+  expect_change(changed, input, 0, "params.count");
+  NodeDeclaration other = decl;
+  other.version = 2;
+  changed = dag.nodes[0];
+  changed.decl = &other;
+  expect_change(changed, input, 0, "version 1 -> 2");
+  other = decl;
+  other.libraries["CGAL"] = "5.6";
+  expect_change(changed, input, 0, "libraries.CGAL");
+  other = decl;
+  other.id = "Other";
+  expect_change(changed, input, 0, "node");
+  OutputEntry in = input;
+  in.digest = sha256("y");
+  expect_change(dag.nodes[0], in, 0, "input a");
+  in = input;
+  in.type_version = 2;
+  expect_change(dag.nodes[0], in, 0, "inputs.a.version");
+  in = input;
+  in.type = "Letters";
+  expect_change(dag.nodes[0], in, 0, "inputs.a.type");
+  expect_change(dag.nodes[0], input, 5, "seed");
+}
+
+TEST_F(KeyTest, minus_zero_is_zero_and_whole_numbers_equal_themselves) {
+  Dag dag;
+  node(dag, "a", "Source", {}, {{"value", 0.0}});
+  node(dag, "b", "Source", {}, {{"value", -0.0}});
+  node(dag, "c", "Source", {}, {{"value", 0}});
+  EXPECT_EQ(key(dag.nodes[0]), key(dag.nodes[1]));
+  EXPECT_EQ(key(dag.nodes[0]), key(dag.nodes[2]));
+}
+
+TEST_F(KeyTest, a_file_enters_by_content_and_format_not_by_path) {
+  Dag dag;
+  node(dag, "a", "Source");
+  NodeDeclaration decl = *dag.nodes[0].decl;
+  ParamDecl file;
+  file.name = "file";
+  file.kind = ParamKind::file;
+  file.schemes = {"shape:"};
+  decl.params.push_back(file);
+  dag.nodes[0].decl = &decl;
+  const auto with = [&](const std::string& path) {
+    DagNode n = dag.nodes[0];
+    n.params["file"] = path;
+    return key(n);
+  };
+  test::write_file(folder.file("one.off"), "content");
+  test::write_file(folder.file("dir/two.off"), "content");
+  test::write_file(folder.file("three.ply"), "content");
+  test::write_file(folder.file("four.off"), "other content");
+  EXPECT_EQ(with(folder.file("one.off")), with(folder.file("dir/two.off")));
+  EXPECT_NE(with(folder.file("one.off")), with(folder.file("three.ply")));
+  EXPECT_NE(with(folder.file("one.off")), with(folder.file("four.off")));
+  EXPECT_NE(with("shape:torus"), with("shape:sphere"));
+  EXPECT_THROW(with(folder.file("absent.off")), Error);
+}
+
+}  // namespace
+}  // namespace ballflow

@@ -1,0 +1,204 @@
+// A plugin inside the test: small nodes whose executions are counted.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <thread>
+
+#include "ballflow/run.hpp"
+#include "ballflow/sdk.hpp"
+
+namespace toy {
+
+template <class T>
+struct List {  // the smallest shared array
+  using value_type = T;
+  List() = default;
+  List(std::vector<T> v) : owner(std::make_shared<std::vector<T>>(std::move(v))) {
+    begin = std::static_pointer_cast<std::vector<T>>(owner)->data();
+    count = std::static_pointer_cast<std::vector<T>>(owner)->size();
+  }
+  List(const T* d, std::size_t n, std::shared_ptr<const void> o) : begin(d), count(n), keeper(std::move(o)) {}
+  const T* data() const { return begin; }
+  std::size_t size() const { return count; }
+  const T* begin = nullptr;
+  std::size_t count = 0;
+  std::shared_ptr<void> owner;
+  std::shared_ptr<const void> keeper;
+};
+
+struct Numbers {
+  List<double> values;
+};
+
+struct Counters {
+  std::atomic<int> source{0}, add{0}, round{0}, slow{0}, fail{0}, noisy{0}, heavy{0};
+  std::atomic<int> heavy_now{0}, heavy_most{0};
+};
+inline Counters counters;
+inline void reset() {
+  counters.source = counters.add = counters.round = counters.slow = counters.fail = counters.noisy = counters.heavy = 0;
+  counters.heavy_now = counters.heavy_most = 0;
+}
+
+}  // namespace toy
+
+template <>
+struct ballflow::TypeOf<toy::Numbers> {
+  static void declare(TypeDecl<toy::Numbers>& d) {
+    d.id("Numbers", 1).doc("A list of numbers.");
+    d.array("values", &toy::Numbers::values).length("n").doc("the numbers");
+    d.summary("count", "how many").summarize([](const toy::Numbers& v) { return Json{{"count", v.values.size()}}; });
+    d.check([](const toy::Numbers& v) {
+      for (std::size_t i = 0; i < v.values.size(); ++i) {
+        if (v.values.data()[i] < 0) return "number " + std::to_string(i) + " is negative";
+      }
+      return std::string();
+    });
+  }
+};
+
+namespace toy {
+
+using namespace ballflow;
+
+struct Source {
+  Out<Numbers> numbers;
+  double value = 1;
+  std::int64_t count = 3;
+  static void declare(NodeDecl<Source>& d) {
+    d.id("Source", 1).summary("Equal numbers.");
+    d.output("numbers", &Source::numbers).doc("the numbers");
+    d.param("value", &Source::value).doc("the number");
+    d.param("count", &Source::count).at_least(0).doc("how many");
+  }
+  void run(RunContext&) {
+    ++counters.source;
+    numbers = Numbers{std::vector<double>(static_cast<std::size_t>(count), value)};
+  }
+};
+
+struct Add {
+  In<Numbers> a, b;
+  Out<Numbers> sum;
+  static void declare(NodeDecl<Add>& d) {
+    d.id("Add", 1).summary("Sums element by element.");
+    d.input("a", &Add::a).doc("first");
+    d.input("b", &Add::b).optional().doc("second, or nothing");
+    d.output("sum", &Add::sum).doc("the sums");
+  }
+  void run(RunContext& context) {
+    ++counters.add;
+    std::vector<double> v(a->values.data(), a->values.data() + a->values.size());
+    if (b) {
+      for (std::size_t i = 0; i < v.size(); ++i) v[i] += b->values.data()[i];
+    } else {
+      context.warn("nothing to add");
+    }
+    sum = Numbers{std::move(v)};
+  }
+};
+
+struct Round {
+  In<Numbers> numbers;
+  Out<Numbers> rounded;
+  static void declare(NodeDecl<Round>& d) {
+    d.id("Round", 1).summary("Rounds down.");
+    d.input("numbers", &Round::numbers).doc("any");
+    d.output("rounded", &Round::rounded).doc("whole numbers");
+  }
+  void run(RunContext&) {
+    ++counters.round;
+    std::vector<double> v(numbers->values.data(), numbers->values.data() + numbers->values.size());
+    for (double& x : v) x = std::floor(x);
+    rounded = Numbers{std::move(v)};
+  }
+};
+
+struct Slow {
+  In<Numbers> numbers;
+  Out<Numbers> same;
+  double seconds = 30;
+  static void declare(NodeDecl<Slow>& d) {
+    d.id("Slow", 1).summary("Waits.");
+    d.input("numbers", &Slow::numbers).doc("any");
+    d.output("numbers", &Slow::same).doc("the same");
+    d.param("seconds", &Slow::seconds).unit("s").at_least(0).doc("how long");
+  }
+  void run(RunContext& context) {
+    ++counters.slow;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    while (std::chrono::steady_clock::now() < end) {
+      context.check_cancelled();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    same = *numbers;
+  }
+};
+
+struct Fail {
+  In<Numbers> numbers;
+  Out<Numbers> nothing;
+  static void declare(NodeDecl<Fail>& d) {
+    d.id("Fail", 1).summary("Fails.");
+    d.input("numbers", &Fail::numbers).doc("any");
+    d.output("numbers", &Fail::nothing).doc("never");
+  }
+  void run(RunContext&) {
+    ++counters.fail;
+    throw NodeError("number 7 is odd", "use even numbers");
+  }
+};
+
+/// Breaks the promise of determinism: another result at every execution.
+struct Noisy {
+  Out<Numbers> numbers;
+  static void declare(NodeDecl<Noisy>& d) {
+    d.id("Noisy", 1).summary("Counts its executions.");
+    d.output("numbers", &Noisy::numbers).doc("the count");
+  }
+  void run(RunContext&) { numbers = Numbers{std::vector<double>{static_cast<double>(++counters.noisy)}}; }
+};
+
+/// Hands over what its type forbids.
+struct Negative {
+  Out<Numbers> numbers;
+  static void declare(NodeDecl<Negative>& d) {
+    d.id("Negative", 1).summary("Breaks an invariant.");
+    d.output("numbers", &Negative::numbers).doc("a negative number");
+  }
+  void run(RunContext&) { numbers = Numbers{std::vector<double>{1, -1}}; }
+};
+
+struct Heavy {
+  Out<Numbers> numbers;
+  double value = 1;
+  static void declare(NodeDecl<Heavy>& d) {
+    d.id("Heavy", 1).summary("Says that it needs 60 bytes.");
+    d.memory(60, 0);
+    d.output("numbers", &Heavy::numbers).doc("a number");
+    d.param("value", &Heavy::value).doc("the number");
+  }
+  void run(RunContext&) {
+    ++counters.heavy;
+    const int now = ++counters.heavy_now;
+    int most = counters.heavy_most;
+    while (most < now && !counters.heavy_most.compare_exchange_weak(most, now)) {
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    --counters.heavy_now;
+    numbers = Numbers{std::vector<double>{value}};
+  }
+};
+
+inline const bf_plugin& plugin() {
+  static const std::vector<const bf_node*> nodes = node_entries<Source, Add, Round, Slow, Fail, Noisy, Negative, Heavy>();
+  static const std::vector<const bf_type*> types = type_entries<Numbers>();
+  static const bf_plugin plugin = {sizeof(bf_plugin),          BALLFLOW_ABI_VERSION, detail::bytes("toy"),
+                                   detail::bytes("1"),         types.data(),         types.size(),
+                                   nodes.data(),               nodes.size()};
+  return plugin;
+}
+
+}  // namespace toy
