@@ -1,0 +1,133 @@
+#include "balls/enlarge.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "types/monitor.hpp"
+
+namespace ballflow::geometry {
+namespace {
+
+const Box box = [] {
+  Box b;
+  b.add({-1, 0, 2});
+  b.add({1, 8, 3});  // longest edge 8
+  return b;
+}();
+
+Balls sample_balls() {
+  return {{{0, 0, 0}, {1, 2, 3}, {4, 5, 6}}, {0, 1, 2.5}, {0, 2, 2, 5}, {3, 9, 0, 1, 7}};
+}
+
+void expect_same_but_radii(const Balls& grown, const Balls& balls) {
+  EXPECT_EQ(grown.centers, balls.centers);
+  EXPECT_EQ(grown.defining_offsets, balls.defining_offsets);
+  EXPECT_EQ(grown.defining_samples, balls.defining_samples);
+  EXPECT_EQ(broken_invariant(grown), "");
+}
+
+std::string message(const Balls& balls, const Box& sample_box, const EnlargeOptions& options) {
+  try {
+    enlarge(balls, sample_box, options);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(enlarge, additive_epsilon_is_percent_of_the_longest_edge_of_the_box) {
+  const Balls balls = sample_balls();
+  const Balls grown = enlarge(balls, box, {.mode = EnlargeMode::additive, .epsilon = 25});
+  EXPECT_EQ(grown.radii, (Array<double>{2, 3, 4.5}));
+  expect_same_but_radii(grown, balls);
+}
+
+TEST(enlarge, default_is_three_thousandths_of_the_longest_edge) {
+  const Balls grown = enlarge(sample_balls(), box, {});
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(grown.radii[i] - sample_balls().radii[i], 0.024, 1e-15);
+}
+
+TEST(enlarge, absolute_epsilon_is_in_model_units_and_needs_no_sample) {
+  const Balls grown = enlarge(sample_balls(), Box{}, {.mode = EnlargeMode::absolute, .epsilon = 0.5});
+  EXPECT_EQ(grown.radii, (Array<double>{0.5, 1.5, 3}));
+  expect_same_but_radii(grown, sample_balls());
+}
+
+TEST(enlarge, multiplicative_keeps_balls_of_radius_zero) {
+  const Balls grown =
+      enlarge(sample_balls(), Box{}, {.mode = EnlargeMode::multiplicative, .epsilon = -7, .factor = 1.5});
+  EXPECT_EQ(grown.radii, (Array<double>{0, 1.5, 3.75}));
+  expect_same_but_radii(grown, sample_balls());
+}
+
+TEST(enlarge, by_nothing_returns_the_input) {
+  EXPECT_EQ(enlarge(sample_balls(), box, {.epsilon = 0}).radii, sample_balls().radii);
+  EXPECT_EQ(enlarge(sample_balls(), box, {.mode = EnlargeMode::absolute, .epsilon = 0}).radii,
+            sample_balls().radii);
+  EXPECT_EQ(enlarge(sample_balls(), box, {.mode = EnlargeMode::multiplicative, .factor = 1}).radii,
+            sample_balls().radii);
+}
+
+TEST(enlarge, never_shrinks_a_radius_by_rounding) {
+  std::vector<Vec3> centers(1000);
+  std::vector<double> radii;
+  for (int i = 0; i < 1000; ++i) radii.push_back(std::sqrt(i) * std::ldexp(1.0, i % 60 - 30));
+  const Balls balls{centers, radii, {}, {}};
+  for (const EnlargeMode mode : {EnlargeMode::additive, EnlargeMode::absolute, EnlargeMode::multiplicative}) {
+    const Balls grown = enlarge(balls, box, {.mode = mode, .epsilon = 1e-13, .factor = 1 + 0x1p-52});
+    for (std::size_t i = 0; i < radii.size(); ++i) ASSERT_GE(grown.radii[i], radii[i]);
+  }
+}
+
+TEST(enlarge, accepts_no_ball) { EXPECT_EQ(enlarge({}, box, {}).size(), 0u); }
+
+TEST(enlarge, names_what_is_wrong) {
+  const Balls balls = sample_balls();
+  EXPECT_NE(message(balls, Box{}, {}).find("needs the sample"), std::string::npos);
+  EXPECT_NE(message(balls, box, {.epsilon = -1}).find("epsilon is -1"), std::string::npos);
+  EXPECT_NE(message(balls, box, {.epsilon = std::nan("")}).find("epsilon is"), std::string::npos);
+  EXPECT_NE(message(balls, box, {.mode = EnlargeMode::multiplicative, .factor = 0.5}).find("factor is 0.5"),
+            std::string::npos);
+  const double most = std::numeric_limits<double>::max();
+  EXPECT_NE(message({{{0, 0, 0}, {1, 0, 0}}, {0, most}, {}, {}}, box,
+                    {.mode = EnlargeMode::multiplicative, .factor = 2})
+                .find("ball 1"),
+            std::string::npos);
+  EXPECT_NE(message({{{0, 0, 0}}, {-3}, {}, {}}, box, {}).find("ball 0"), std::string::npos);
+}
+
+TEST(balls, report_broken_invariants) {
+  ASSERT_EQ(broken_invariant(sample_balls()), "");
+  Balls b = sample_balls();
+  b.radii = {0, 1};
+  EXPECT_NE(broken_invariant(b), "");
+  b = sample_balls();
+  b.radii = {0, 1, std::nan("")};
+  EXPECT_NE(broken_invariant(b).find("ball 2"), std::string::npos);
+  b = sample_balls();
+  b.centers = {{0, 0, 0}, {0, std::numeric_limits<double>::infinity(), 0}, {0, 0, 0}};
+  EXPECT_NE(broken_invariant(b).find("ball 1"), std::string::npos);
+  b = sample_balls();
+  b.defining_offsets = {0, 2, 5};
+  EXPECT_NE(broken_invariant(b), "");
+  b = sample_balls();
+  b.defining_offsets = {0, 4, 2, 5};
+  EXPECT_NE(broken_invariant(b).find("ball 1"), std::string::npos);
+  b = sample_balls();
+  b.defining_offsets = {0, 2, 2, 6};
+  EXPECT_NE(broken_invariant(b), "");
+  b = sample_balls();
+  b.defining_offsets = {};
+  EXPECT_NE(broken_invariant(b), "");
+  b = sample_balls();
+  b.defining_samples = {3, 9, 0, 0, 7};
+  EXPECT_NE(broken_invariant(b).find("ball 2"), std::string::npos);
+  b = sample_balls();
+  b.defining_samples = {-1, 9, 0, 1, 7};
+  EXPECT_NE(broken_invariant(b).find("ball 0"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ballflow::geometry
