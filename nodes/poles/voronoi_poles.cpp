@@ -484,6 +484,6 @@ PoleSet voronoi_poles(const PointSet& sample, const VoronoiPolesOptions& options
   return diagram.poles(monitor);
 }
 
-const char* cgal_version() { return CGAL_VERSION_STR; }
+const char* voronoi_poles_cgal_version() { return CGAL_VERSION_STR; }
 
 }  // namespace ballflow::geometry

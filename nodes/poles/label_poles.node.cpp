@@ -1,0 +1,71 @@
+#include "poles/label_poles.hpp"
+
+#include <ballflow/sdk.hpp>
+#include <utility>
+
+#include "types/artifact_types.hpp"
+
+namespace ballflow::nodes {
+namespace {
+
+using geometry::LabelMethod;
+using geometry::LabelPolesOptions;
+
+struct LabelPoles {
+  In<geometry::PoleSet> poles;
+  In<geometry::TriangleMesh> mesh;
+  Out<geometry::PoleSet> labelled;
+  Out<geometry::Balls> inner, outer;
+  LabelPolesOptions options;
+
+  static void declare(NodeDecl<LabelPoles>& d) {
+    d.id("LabelPoles", 1)
+        .summary("Tell inner from outer poles: the discrete medial axis transform of a solid.");
+    d.doc(
+        "A pole is inner when the winding number of the mesh around it exceeds 1/2. For closed meshes it is "
+        "an "
+        "integer and counted with exact predicates: right at sharp edges, where the sample is too coarse, "
+        "with "
+        "cavities and with self-intersections. For open meshes it is the generalized winding number. "
+        "Triangles that "
+        "face inconsistent ways are turned over; the mesh may be inside out. The summary of `poles` adds "
+        "method, "
+        "uncertain (poles with a winding number from 1/4 to 3/4, or exactly on the surface) and "
+        "turned_triangles. "
+        "Refuses a mesh without triangles and a mesh that contains no pole, such as an open sheet.");
+    d.avoid_when("the mesh is not the surface that was sampled, or has large holes: see `uncertain`.");
+    d.cites("kornberger2010", "3.4").cites("aichholzer2007", "labels from a mesh");
+    d.cites("jacobson2013", "generalized winding number").cites("barill2018", "hierarchical evaluation");
+    d.memory(1 << 20, 2.5);
+    d.input("poles", &LabelPoles::poles).doc("poles of a sample, labelled or not");
+    d.input("mesh", &LabelPoles::mesh)
+        .doc("triangles of the surface that was sampled, in the same coordinates");
+    d.output("poles", &LabelPoles::labelled).doc("the same poles, every one labelled inner or outer");
+    d.output("inner", &LabelPoles::inner)
+        .doc("polar balls of the inner poles with the samples they pass through");
+    d.output("outer", &LabelPoles::outer)
+        .doc("polar balls of the outer poles, those of unbounded poles included");
+    d.choice("method", &LabelPoles::options, &LabelPolesOptions::method,
+             {{LabelMethod::automatic, "auto", "mesh when the mesh is closed, else winding, with a warning"},
+              {LabelMethod::mesh, "mesh", "exact, for closed meshes; refuses others and says why"},
+              {LabelMethod::winding, "winding",
+               "generalized winding number; the same as mesh for closed meshes"}})
+        .doc("how inside and outside are told apart");
+  }
+  void run(RunContext& context) {
+    ContextMonitor monitor(context);
+    geometry::LabelledPoles result = geometry::label_poles(*poles, *mesh, options, monitor);
+    labelled.summary("method", result.method == LabelMethod::mesh ? "mesh" : "winding");
+    labelled.summary("uncertain", result.uncertain);
+    labelled.summary("turned_triangles", result.turned_triangles);
+    labelled = std::move(result.poles);
+    inner = std::move(result.inner);
+    outer = std::move(result.outer);
+  }
+};
+
+}  // namespace
+
+const bf_node* label_poles_entry() { return node_entry<LabelPoles>(); }
+
+}  // namespace ballflow::nodes

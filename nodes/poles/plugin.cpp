@@ -1,0 +1,14 @@
+#include <ballflow/sdk.hpp>
+
+#include "types/artifact_types.hpp"
+
+namespace ballflow::nodes {
+const bf_node* voronoi_poles_entry();
+const bf_node* label_poles_entry();
+}  // namespace ballflow::nodes
+
+BALLFLOW_PLUGIN("poles", "0.1.0",
+                (std::vector<const bf_node*>{ballflow::nodes::voronoi_poles_entry(),
+                                             ballflow::nodes::label_poles_entry()}),
+                (ballflow::type_entries<ballflow::geometry::PointSet, ballflow::geometry::TriangleMesh,
+                                        ballflow::geometry::PoleSet, ballflow::geometry::Balls>()))

@@ -1,0 +1,58 @@
+#include "poles/voronoi_poles.hpp"
+
+#include <ballflow/sdk.hpp>
+
+#include "types/artifact_types.hpp"
+
+namespace ballflow::nodes {
+namespace {
+
+using geometry::VoronoiPolesOptions;
+
+struct VoronoiPoles {
+  In<geometry::PointSet> points;
+  Out<geometry::PoleSet> poles;
+  VoronoiPolesOptions options;
+
+  static void declare(NodeDecl<VoronoiPoles>& d) {
+    d.id("VoronoiPoles", 1)
+        .summary("The two poles of every sample: far vertices of its Voronoi cell on either side.");
+    d.doc(
+        "The first pole of a sample is the vertex of its Voronoi cell farthest from it, the second the "
+        "farthest on "
+        "the other side. Far-away points around the sample bound all cells; Voronoi vertices that depend on "
+        "them "
+        "lie well outside the bounding box and are marked unbounded. Vertices that coincide exactly (five "
+        "and more "
+        "cospherical samples) are one. Accepts any distinct points that are not all in one plane; refuses "
+        "fewer "
+        "than 4 points, equal points and coplanar points.");
+    d.avoid_when(
+        "the points do not sample a surface: poles of points that fill a volume or follow curves mean "
+        "nothing.");
+    d.cites("amenta1999", "section 4, poles").cites("kornberger2010", "3.3, 3.4");
+    d.library("CGAL", geometry::voronoi_poles_cgal_version());
+    d.memory(1 << 20, 40);
+    d.input("points", &VoronoiPoles::points).doc("n points on a surface, model units");
+    d.output("poles", &VoronoiPoles::poles)
+        .doc("the distinct poles, not labelled, and the two poles of every sample");
+    d.param("bounding_distance", &VoronoiPoles::options, &VoronoiPolesOptions::bounding_distance)
+        .unit("longest bounding-box edges")
+        .at_least(4)
+        .at_most(1e6)
+        .doc(
+            "distance of the far-away points; it matters only to unbounded poles: larger values move them "
+            "farther "
+            "away");
+  }
+  void run(RunContext& context) {
+    ContextMonitor monitor(context);
+    poles = geometry::voronoi_poles(*points, options, monitor);
+  }
+};
+
+}  // namespace
+
+const bf_node* voronoi_poles_entry() { return node_entry<VoronoiPoles>(); }
+
+}  // namespace ballflow::nodes
