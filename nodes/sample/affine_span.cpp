@@ -1,6 +1,12 @@
 #include "sample/affine_span.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/version.h>
+
+#include <array>
+#include <string>
+
+#include "types/monitor.hpp"
 
 namespace ballflow::geometry {
 
@@ -19,5 +25,19 @@ int affine_dimension(std::span<const Vec3> points) {
   while (p != points.end() && CGAL::coplanar(a, b, c, exact(*p))) ++p;
   return p == points.end() ? 2 : 3;
 }
+
+void require_space_filling(std::span<const Vec3> points) {
+  const int dimension = affine_dimension(points);
+  if (dimension == 3) return;
+  const std::string number = std::to_string(points.size());
+  static constexpr std::array places = {"nowhere", "in one place", "on one line", "in one plane"};
+  throw InputError(
+      points.size() < 4
+          ? "the sample has only " + number + (points.size() == 1 ? " point" : " distinct points")
+          : "all " + number + " points lie " + places[static_cast<std::size_t>(dimension + 1)],
+      "a sample of a surface in space has at least four points that are not in one plane");
+}
+
+const char* cgal_version() { return CGAL_VERSION_STR; }
 
 }  // namespace ballflow::geometry

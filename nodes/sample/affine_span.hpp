@@ -12,4 +12,12 @@ namespace ballflow::geometry {
 /// - the points must be finite; equal ones are allowed
 int affine_dimension(std::span<const Vec3> points);
 
+/// Throws InputError for fewer than four points and for points in one place, on one line or in one plane.
+///
+/// - the points must be finite and pairwise distinct
+void require_space_filling(std::span<const Vec3> points);
+
+/// Version of the library that decides.
+const char* cgal_version();
+
 }  // namespace ballflow::geometry

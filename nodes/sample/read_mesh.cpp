@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "sample/affine_span.hpp"
 #include "sample/file_content.hpp"
+#include "sample/first_equal.hpp"
 #include "sample/raw_model.hpp"
 #include "sample/text_cursor.hpp"
 
@@ -67,38 +69,6 @@ MeshFormat format_of(const std::string& path, std::string_view content) {
                    "readable are .off .obj .ply .stl .xyz .pts .pwn, each also with .gz");
 }
 
-std::uint64_t mixed(std::uint64_t h, std::uint64_t value) {
-  h = (h ^ value) * 0x9e3779b97f4a7c15ull;
-  return h ^ (h >> 29);
-}
-
-/// For each item the first item equal to it. `hash` and `equal` take item numbers.
-template <class Hash, class Equal>
-std::vector<Index> first_equal(std::size_t count, Hash hash, Equal equal) {
-  const std::size_t slots = std::bit_ceil(2 * count + 1);
-  std::vector<Index> table(slots, none);
-  std::vector<Index> first(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    std::size_t slot = hash(i) & (slots - 1);
-    while (table[slot] != none && !equal(static_cast<std::size_t>(table[slot]), i))
-      slot = (slot + 1) & (slots - 1);
-    if (table[slot] == none) table[slot] = static_cast<Index>(i);
-    first[i] = table[slot];
-  }
-  return first;
-}
-
-std::vector<Index> first_equal_vertex(const std::vector<Vec3>& vertices) {
-  return first_equal(
-      vertices.size(),
-      [&](std::size_t i) {
-        const Vec3& p = vertices[i];
-        return mixed(mixed(mixed(0, std::bit_cast<std::uint64_t>(p.x)), std::bit_cast<std::uint64_t>(p.y)),
-                     std::bit_cast<std::uint64_t>(p.z));
-      },
-      [&](std::size_t a, std::size_t b) { return vertices[a] == vertices[b]; });
-}
-
 std::vector<Index> first_equal_triangle(const std::vector<Triangle>& triangles) {
   const auto sorted = [&](std::size_t i) {
     Triangle t = triangles[i];
@@ -111,8 +81,9 @@ std::vector<Index> first_equal_triangle(const std::vector<Triangle>& triangles) 
       triangles.size(),
       [&](std::size_t i) {
         const Triangle t = sorted(i);
-        return mixed(mixed(mixed(0, static_cast<std::uint64_t>(t[0])), static_cast<std::uint64_t>(t[1])),
-                     static_cast<std::uint64_t>(t[2]));
+        return mix_hash(
+            mix_hash(mix_hash(0, static_cast<std::uint64_t>(t[0])), static_cast<std::uint64_t>(t[1])),
+            static_cast<std::uint64_t>(t[2]));
       },
       [&](std::size_t a, std::size_t b) { return sorted(a) == sorted(b); });
 }
@@ -146,7 +117,7 @@ MeshFile clean(RawModel model, Monitor& monitor) {
   for (const std::string& warning : model.warnings) monitor.warn(warning);
 
   for (Vec3& p : model.vertices) p = p + Vec3{0, 0, 0};  // -0 to 0: equal points have equal bytes
-  const std::vector<Index> first = first_equal_vertex(model.vertices);
+  const std::vector<Index> first = first_equal_point(model.vertices);
   for (std::size_t v = 0; v < first.size(); ++v) result.welded_vertices += first[v] != static_cast<Index>(v);
   monitor.step(0.9);
 
@@ -206,18 +177,7 @@ MeshFile clean(RawModel model, Monitor& monitor) {
                  " degenerate: the model is read as points");
   }
 
-  const int dimension = affine_dimension(vertices);
-  if (dimension < 3) {
-    static constexpr std::array where = {"", "in one place", "on one line", "in one plane"};
-    throw InputError(
-        vertices.size() < 4
-            ? "the model has " +
-                  counted(static_cast<std::int64_t>(vertices.size()), "distinct point", "distinct points") +
-                  ", fewer than four"
-            : "all " + std::to_string(vertices.size()) + " points of the model lie " +
-                  where[static_cast<std::size_t>(dimension + 1)],
-        "balls need a sample of a surface in space: at least four points that are not in one plane");
-  }
+  require_space_filling(vertices);
   result.points.normals = unit_normals(model, kept, monitor);
   result.points.points = std::move(vertices);
   if (!triangles.empty()) {

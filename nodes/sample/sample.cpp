@@ -1,0 +1,26 @@
+#include "sample/sample.hpp"
+
+#include <string_view>
+
+#include "sample/affine_span.hpp"
+#include "sample/generate.hpp"
+
+namespace ballflow::geometry {
+
+MeshFile sample(const SampleOptions& options, std::uint64_t seed, Monitor& monitor) {
+  constexpr std::string_view scheme = "shape:";
+  MeshFile model;
+  if (options.file.starts_with(scheme)) {
+    model.mesh = generate(parse_shape(std::string_view(options.file).substr(scheme.size())), monitor);
+    model.points.points = model.mesh.vertices;
+  } else {
+    model = read_mesh_file(options.file, {}, monitor);
+  }
+  if (options.mode == SampleMode::surface) {
+    model.points = sample_surface(model.mesh, {options.spread, options.count, seed}, monitor);
+    require_space_filling(model.points.points.span());
+  }
+  return model;
+}
+
+}  // namespace ballflow::geometry

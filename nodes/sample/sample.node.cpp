@@ -1,0 +1,68 @@
+#include "sample/sample.hpp"
+
+#include <ballflow/sdk.hpp>
+
+#include "sample/affine_span.hpp"
+#include "types/artifact_types.hpp"
+
+namespace ballflow::nodes {
+
+using geometry::SampleMode;
+using geometry::SampleOptions;
+using geometry::Spread;
+
+struct Sample {
+  Out<geometry::PointSet> points;
+  Out<geometry::TriangleMesh> mesh;
+  SampleOptions options;
+
+  static void declare(NodeDecl<Sample>& d) {
+    d.id("Sample", 1).summary("Reads a model, or makes one, and samples its surface.");
+    d.doc(
+        "Reads OFF, OBJ, PLY, STL and points as text (XYZ, PTS, PWN), each also gzipped. Welds equal "
+        "vertices, drops "
+        "degenerate and repeated faces and, where there are faces, vertices in none, and says how many. "
+        "Refuses files that "
+        "are cut off or damaged, coordinates that are not finite, indices out of range, and points in one "
+        "plane.");
+    d.avoid_when("the model needs repair first: holes and self-intersections stay as they are");
+    d.cites("kornberger2010", "3.4 and 3.9").cites("yuksel2015", "3");
+    d.library("CGAL", geometry::cgal_version()).uses_seed();
+    d.memory(std::uint64_t{256} << 20, 0);
+    d.output("points", &Sample::points).doc("n samples: the vertices of the model, or points on its faces");
+    d.output("mesh", &Sample::mesh).doc("the model; no vertices and no triangles for a cloud of points");
+    d.param("file", &Sample::options, &SampleOptions::file)
+        .file()
+        .scheme("shape:")
+        .required()
+        .doc("a model file, or shape:NAME for a generated one (shape:torus?R=1&r=0.3&n=20000; see Shape)");
+    d.choice("mode", &Sample::options, &SampleOptions::mode,
+             {{SampleMode::vertices, "vertices", "the vertices of the model, in the order of the file"},
+              {SampleMode::surface, "surface", "count points on the faces"}})
+        .doc("what becomes a sample");
+    d.choice("spread", &Sample::options, &SampleOptions::spread,
+             {{Spread::poisson, "poisson", "evenly spaced: five times as many random points, thinned out"},
+              {Spread::random, "random", "independent and uniform by area"}})
+        .doc("how points lie on the faces; mode surface only");
+    d.param("count", &Sample::options, &SampleOptions::count)
+        .unit("points")
+        .at_least(4)
+        .at_most(2e6)
+        .doc("number of points; mode surface only");
+  }
+
+  void run(RunContext& context) {
+    ContextMonitor monitor(context);
+    geometry::MeshFile model = geometry::sample(options, context.seed(), monitor);
+    mesh = std::move(model.mesh);
+    points = std::move(model.points);
+    points.summary("welded", model.welded_vertices);
+    points.summary("unused", model.unused_vertices);
+    mesh.summary("degenerate_faces", model.degenerate_faces);
+    mesh.summary("repeated_faces", model.repeated_faces);
+  }
+};
+
+const bf_node* sample_entry() { return node_entry<Sample>(); }
+
+}  // namespace ballflow::nodes
