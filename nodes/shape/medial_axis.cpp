@@ -23,6 +23,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <span>
@@ -121,6 +122,31 @@ bool circumcenter(const std::array<Vec3, 4>& p, Vec3& out) {
   return true;
 }
 
+// --- Paths along edges of the complex.
+
+/// The vertices strictly between `from` and `to` on a shortest path along the edges; none without a path.
+std::vector<std::int32_t> path_between(std::int32_t from, std::int32_t to,
+                                       std::span<const std::array<std::int32_t, 2>> edges) {
+  std::vector<std::array<std::int32_t, 2>> reached{{from, -1}};  // vertex, index of its predecessor
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    for (const auto& edge : edges) {
+      if (edge[0] != reached[i][0] && edge[1] != reached[i][0]) continue;
+      const std::int32_t next = edge[0] + edge[1] - reached[i][0];
+      const bool known =
+          std::any_of(reached.begin(), reached.end(), [&](const auto& r) { return r[0] == next; });
+      if (known) continue;
+      reached.push_back({next, static_cast<std::int32_t>(i)});
+      if (next != to) continue;
+      std::vector<std::int32_t> path;
+      for (std::int32_t k = reached.back()[1]; k > 0; k = reached[at(k)][1])
+        path.push_back(reached[at(k)][0]);
+      std::reverse(path.begin(), path.end());
+      return path;
+    }
+  }
+  return {};
+}
+
 // --- Voronoi vertices: where they are and what they are called.
 
 enum class Place : std::uint8_t { out, in, on };
@@ -146,6 +172,7 @@ class Axis {
 
  private:
   using Polygon = std::vector<std::int32_t>;  // names of the corners
+  using Edge = std::array<std::int32_t, 2>;
 
   std::int32_t balls() const { return static_cast<std::int32_t>(complex_.centers.size()); }
   Vec3 center(std::int32_t ball) const { return complex_.centers[at(ball)]; }
@@ -157,7 +184,8 @@ class Axis {
   void add_facets();
   void add_facet(std::int32_t w0, std::int32_t w1, std::span<const std::int32_t> ring,
                  std::span<const std::int32_t> apexes);
-  void add_polygon(Polygon polygon, AxisKind kind);
+  void keep_inside(Polygon polygon, std::int32_t w0, std::int32_t w1, bool cut);
+  void add_polygon(const Polygon& polygon, AxisKind kind);
   void add_singular_part();
   MedialAxis finish();
 
@@ -175,7 +203,7 @@ class Axis {
     AxisKind kind;
   };
   std::vector<Piece> pieces_;
-  std::vector<std::array<std::int32_t, 2>> edges_;
+  std::vector<Edge> edges_;
   std::vector<std::int32_t> isolated_;
 };
 
@@ -202,9 +230,16 @@ double Axis::depth(std::int32_t w, Vec3 x) const {
   };
   const auto faces = sites_.faces_of(at(w));
   if (faces.size() == 1) return plane(faces[0]);
-  // Several triangles: x is inside when the segment from w to x passes through one of them.
+  // Several triangles: x is inside when the segment from w to x passes through one of them. The segment
+  // starts a little outside, because w itself may lie on an edge of its triangles (where balls touch).
   double best = -std::numeric_limits<double>::infinity();
-  const Kernel::Point_3 from = point(sites_.points[at(w)]), to = point(x);
+  Vec3 outward;
+  for (const auto& face : faces) {
+    const auto& t = complex_.triangles[at(face.triangle)];
+    const Vec3 a = center(t[0]), n = cross(center(t[1]) - a, center(t[2]) - a);
+    outward = outward + (face.outside / length(n)) * n;
+  }
+  const Kernel::Point_3 from = point(sites_.points[at(w)] + std::ldexp(size_, -26) * outward), to = point(x);
   for (const auto& face : faces) {
     const auto& t = complex_.triangles[at(face.triangle)];
     double inside = plane(face);
@@ -240,9 +275,6 @@ void Axis::place_cells() {
     if (!circumcenter<double>(corners, positions_[i]))
       circumcenter<CGAL::Exact_rational>(corners, positions_[i]);
     const Vec3 x = positions_[i];
-    const bool singular = std::any_of(cell.corners.begin(), cell.corners.end(),
-                                      [&](std::int32_t w) { return sites_.faces_of(at(w)).empty(); });
-    if (singular) continue;
     // A sphere may pass through a site that does not carry its name.
     for (const std::int32_t w : cell.corners) {
       for (const std::int32_t b : sites_.balls_of(at(w))) {
@@ -250,6 +282,9 @@ void Axis::place_cells() {
       }
     }
     if (v.place == Place::on) continue;
+    const bool singular = std::any_of(cell.corners.begin(), cell.corners.end(),
+                                      [&](std::int32_t w) { return sites_.faces_of(at(w)).empty(); });
+    if (singular) continue;
     // All sites of the cell agree but for rounding; the clearest voice decides.
     double clearest = 0;
     for (const std::int32_t w : cell.corners) {
@@ -324,63 +359,84 @@ void Axis::add_facets() {
 void Axis::add_facet(std::int32_t w0, std::int32_t w1, std::span<const std::int32_t> ring,
                      std::span<const std::int32_t> apexes) {
   const std::size_t n = ring.size();
-  const auto place = [&](std::size_t k) { return vertices_[at(ring[k % n])].place; };
-  const auto name = [&](std::size_t k) { return vertices_[at(ring[k % n])].name; };
-  // Where the Voronoi edge behind ring[k] leaves R: in the centre of the ball its three sites share.
-  const auto cut = [&](std::size_t k, Polygon& polygon) {
+  const auto vertex = [&](std::size_t k) { return vertices_[at(ring[k % n])]; };
+  std::size_t start = 0;  // behind a vertex outside R, if there is one
+  while (start < n && vertex(start + n - 1).place != Place::out) ++start;
+  if (start == n) {
+    Polygon polygon;
+    for (std::size_t k = 0; k < n; ++k) polygon.push_back(vertex(k).name);
+    return keep_inside(std::move(polygon), w0, w1, false);
+  }
+  // Where the Voronoi edge behind vertex k leaves R: in the centre of the ball its three sites share.
+  const auto leave = [&](std::size_t k, Polygon& polygon) {
     const std::array<std::int32_t, 3> sites{w0, w1, apexes[k % n]};
-    if (sites[2] == infinite) return;
-    const std::int32_t ball = common_ball(sites);
+    const std::int32_t ball = sites[2] == infinite ? -1 : common_ball(sites);
     if (ball >= 0) polygon.push_back(ball);
   };
-  const auto finish = [&](Polygon& polygon, bool has_inner) {
-    if (!has_inner) {
-      Polygon centers = polygon;
-      std::sort(centers.begin(), centers.end());
-      centers.erase(std::unique(centers.begin(), centers.end()), centers.end());
-      if (centers.size() < 3) return;
-      Vec3 centroid;
-      for (const std::int32_t b : centers) centroid = centroid + center(b);
-      centroid = (1.0 / static_cast<double>(centers.size())) * centroid;
-      const double d0 = depth(w0, centroid), d1 = depth(w1, centroid);
-      if ((std::abs(d0) > std::abs(d1) ? d0 : d1) <= 0) return;
-    }
-    add_polygon(std::move(polygon), AxisKind::voronoi);
-  };
+  for (std::size_t k = start; k < start + n; ++k) {
+    if (vertex(k).place == Place::out) continue;
+    Polygon polygon;
+    if (vertex(k).place == Place::in) leave(k + n - 1, polygon);
+    for (; vertex(k).place != Place::out; ++k) polygon.push_back(vertex(k).name);
+    if (vertex(k - 1).place == Place::in) leave(k - 1, polygon);
+    keep_inside(std::move(polygon), w0, w1, true);
+  }
+}
 
-  std::size_t start = 0;  // first vertex of a run inside R
-  while (start < n && !(place(start) != Place::out && place(start + n - 1) == Place::out)) ++start;
-  if (start == n) {
-    if (place(0) == Place::out) return;
-    Polygon polygon;
-    bool has_inner = false;
-    for (std::size_t k = 0; k < n; ++k) {
-      polygon.push_back(name(k));
-      has_inner = has_inner || place(k) == Place::in;
-    }
-    finish(polygon, has_inner);
-    return;
+/// Adds a piece of the facet between w0 and w1 with no corner outside R. `cut`: the boundary of R cut it
+/// between the last corner and the first.
+void Axis::keep_inside(Polygon polygon, std::int32_t w0, std::int32_t w1, bool cut) {
+  const auto is_ball = [this](std::int32_t name) { return name < balls(); };
+  const auto inside = [&](Vec3 x) {  // the site that sees x more clearly decides
+    const double d0 = depth(w0, x), d1 = depth(w1, x);
+    return (std::abs(d0) > std::abs(d1) ? d0 : d1) > 0;
+  };
+  if (std::all_of(polygon.begin(), polygon.end(), is_ball)) {
+    Polygon centers = polygon;
+    std::sort(centers.begin(), centers.end());
+    centers.erase(std::unique(centers.begin(), centers.end()), centers.end());
+    if (centers.size() < 3) return;
+    Vec3 centroid;
+    for (const std::int32_t b : centers) centroid = centroid + center(b);
+    if (!inside((1.0 / static_cast<double>(centers.size())) * centroid)) return;
   }
-  for (std::size_t k = start; k < start + n;) {
-    if (place(k) == Place::out) {
-      ++k;
-      continue;
+  if (std::count_if(polygon.begin(), polygon.end(), is_ball) < 2)
+    return add_polygon(polygon, AxisKind::voronoi);
+
+  std::vector<Edge> shared;  // edges between triangles of w0 and of w1
+  for (const auto& f0 : sites_.faces_of(at(w0))) {
+    for (const auto& f1 : sites_.faces_of(at(w1))) {
+      const auto &t0 = complex_.triangles[at(f0.triangle)], &t1 = complex_.triangles[at(f1.triangle)];
+      Polygon common;
+      std::set_intersection(t0.begin(), t0.end(), t1.begin(), t1.end(), std::back_inserter(common));
+      if (common.size() == 2) shared.push_back({common[0], common[1]});
     }
-    Polygon polygon;
-    bool has_inner = false;
-    if (place(k) == Place::in) cut(k + n - 1, polygon);
-    for (; place(k) != Place::out; ++k) {
-      polygon.push_back(name(k));
-      has_inner = has_inner || place(k) == Place::in;
-    }
-    if (place(k - 1) == Place::in) cut(k - 1, polygon);
-    finish(polygon, has_inner);
   }
+  const auto is_shared = [&shared](std::int32_t a, std::int32_t b) {
+    return std::find(shared.begin(), shared.end(), Edge{std::min(a, b), std::max(a, b)}) != shared.end();
+  };
+  // Between two centres the boundary of R follows shared edges: one, unless w0 and w1 have several triangles.
+  Polygon corners;
+  bool wall = false;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const bool last = k + 1 == polygon.size();
+    const std::int32_t a = polygon[k], b = polygon[last ? 0 : k + 1];
+    corners.push_back(a);
+    if (a == b || !is_ball(a) || !is_ball(b)) continue;
+    if (is_shared(a, b)) {
+      wall = true;
+    } else if (shared.size() > 1 && ((last && cut) || !inside(0.5 * (center(a) + center(b))))) {
+      const Polygon path = path_between(a, b, shared);
+      corners.insert(corners.end(), path.begin(), path.end());
+      wall = wall || !path.empty();
+    }
+  }
+  add_polygon(corners, wall ? AxisKind::wall : AxisKind::voronoi);
 }
 
 /// Adds the loops of a closed chain of names: equal neighbours are one corner, and a name that comes back
 /// splits the chain.
-void Axis::add_polygon(Polygon polygon, AxisKind kind) {
+void Axis::add_polygon(const Polygon& polygon, AxisKind kind) {
   Polygon chain;
   for (const std::int32_t name : polygon) {
     const auto before = std::find(chain.begin(), chain.end(), name);
