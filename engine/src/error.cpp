@@ -37,7 +37,8 @@ std::string Diagnostic::text() const {
   if (!result.empty()) result += ": ";
   result += severity == Severity::error ? "error: " : "warning: ";
   result += message;
-  if (!pointer.empty()) result += " (at " + printable(pointer) + ")";
+  constexpr std::size_t longest_pointer = 200;
+  if (!pointer.empty() && pointer.size() <= longest_pointer) result += " (at " + printable(pointer) + ")";
   if (!source_line.empty() && column > 0) result += with_caret(source_line, static_cast<std::size_t>(column));
   if (!hint.empty()) result += "\n  " + hint;
   return result;

@@ -278,7 +278,9 @@ class Expander {
   /// The file that `includer` names, read at most once; null when it cannot be used.
   const GraphFile* load(const GraphFile& includer, Offset offset, const std::string& name, std::string& key) {
     const fs::path path = (fs::path(includer.source.file()).parent_path() / name).lexically_normal();
-    key = canonical(path.string());
+    const auto [memo, fresh] = canonical_.try_emplace(path.string());
+    if (fresh) memo->second = canonical(path.string());
+    key = memo->second;
     std::string cycle;
     bool found_self = false;
     for (const ChainLink& link : chain_) {
@@ -377,6 +379,7 @@ class Expander {
   std::vector<ChainLink> chain_;
   std::vector<std::string> broken_paths_;
   std::set<std::string> unreadable_;
+  std::map<std::string, std::string> canonical_;  // a file may be included a million times
   std::size_t instances_ = 0;
 };
 

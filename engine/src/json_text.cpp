@@ -278,8 +278,8 @@ std::string Source::line(std::size_t offset) const {
   constexpr std::size_t longest = 400;
   const std::size_t begin = lines_[static_cast<std::size_t>(position(offset).line) - 1];
   if (offset - std::min(offset, begin) >= longest) return {};
-  const std::size_t end = std::min(content_.find_first_of("\r\n", begin), content_.size());
-  return content_.substr(begin, std::min(end - begin, longest));
+  const std::string line = content_.substr(begin, longest);
+  return line.substr(0, line.find_first_of("\r\n"));
 }
 
 const Value* Value::find(std::string_view key) const {
