@@ -1,0 +1,4 @@
+#define TOY_DEFAULT 1
+#include "toy.hpp"
+
+BALLFLOW_PLUGIN("good", "1.2.3", ballflow::node_entries<MakeToy>(), ballflow::type_entries<Toy>())

@@ -1,0 +1,3 @@
+#include "note.hpp"
+
+TABLES { return nullptr; }
