@@ -750,7 +750,7 @@ Digest Store::file_digest(const std::string& path) {
     Hasher hasher;
     std::vector<char> buffer(1 << 18);
     std::uint64_t size = 0;
-    for (;;) {
+    while (size <= state.size) {  // no further: a file may grow faster than it is read
       const ssize_t got = files.read(file.get(), buffer.data(), buffer.size());
       if (got < 0) fail(message(static_cast<int>(got)), "check the disk");
       if (got == 0) break;

@@ -50,10 +50,7 @@ class FaultyFileSystem : public FileSystem {
     const int error = enter("write");
     return error < 0 ? error : FileSystem::write(file, data, std::min(size, write_at_most));
   }
-  int sync(int file) override {
-    const int error = enter("sync");
-    return error < 0 ? error : FileSystem::sync(file);
-  }
+  int sync(int) override { return enter("sync"); }  // tests need not wait for a disk
   int status(int file, struct stat& status) override {
     int error = enter("status");
     if (error == 0) error = FileSystem::status(file, status);
