@@ -71,7 +71,7 @@ class Fields {
 
   [[noreturn]] void fail(const std::string& why) const { throw Error(ExitCode::plugin, where_ + " " + why); }
   [[noreturn]] void fail_field(const std::string& name, const std::string& why) const {
-    fail(": " + in_quotes(name) + " " + why);
+    throw Error(ExitCode::plugin, where_ + ": " + in_quotes(name) + " " + why);
   }
   const std::string& where() const { return where_; }
   void rename(std::string where) { where_ = std::move(where); }

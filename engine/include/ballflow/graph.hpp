@@ -13,8 +13,11 @@
 //   }
 //
 // An edge is written at its consumer: "node.port", or "inputs.name" for an input of the graph. "${name}" as
-// a whole value keeps the parameter's type; inside a longer text it is replaced as text. Paths of subgraphs
-// are relative to the file that names them. // and /* */ comments are accepted.
+// a whole value keeps the parameter's type; inside a longer text it is replaced as text (numbers in their
+// shortest form), and "$${" stands for "${". It is understood in the values of "params" and in "graph". A
+// parameter without "default" must be given: by --set at the top, by the including node in a subgraph.
+// An input of a subgraph may be "optional": true. Nodes may have a "doc", the graph a "$schema" for editors.
+// Paths of subgraphs are relative to the file that names them. // and /* */ comments are accepted.
 #pragma once
 
 #include <map>
