@@ -177,9 +177,10 @@ class Diagram {
   const PointSet& sample_;
   std::int32_t samples_;
   std::array<Vec3, far_count> far_;
-  std::vector<Sites> sites_;          // per cell of the triangulation
-  std::vector<Vec3> centers_;         // per cell, equal for the cells of one Voronoi vertex
-  std::vector<std::int32_t> vertex_;  // per cell, the cell that stands for its Voronoi vertex
+  std::vector<Sites> sites_;             // per cell of the triangulation
+  std::vector<Vec3> centers_;            // per cell, equal for the cells of one Voronoi vertex
+  std::vector<std::int32_t> vertex_;     // per cell, the cell that stands for its Voronoi vertex
+  std::vector<std::uint8_t> unbounded_;  // per cell that stands for a Voronoi vertex, 1 with a far-away site
 };
 
 // How far four points are from lying in a plane: det(a, b, c)^2 / (|a| |b| |c|)^2 for the edges at the first.
@@ -292,6 +293,12 @@ void Diagram::build(Monitor& monitor) {
   std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
   for (const auto& found : coincident) pairs.insert(pairs.end(), found.begin(), found.end());
   merge_coincident(std::move(pairs));
+  unbounded_.assign(sites_.size(), 0);
+  for (std::size_t i = 0; i < sites_.size(); ++i) {
+    for (const std::int32_t site : sites_[i]) {
+      if (site >= samples_) unbounded_[at(vertex_[i])] = 1;
+    }
+  }
   monitor.step(0.9);
 }
 
@@ -342,19 +349,18 @@ void Diagram::merge_coincident(std::vector<std::pair<std::int32_t, std::int32_t>
 // For each sample the cells that stand for its two poles.
 std::vector<std::array<std::int32_t, 2>> Diagram::farthest_vertices(Monitor& monitor) const {
   std::vector<std::array<std::int32_t, 2>> farthest(at(samples_), {-1, -1});
-  std::vector<double> greatest(at(samples_));
-  for (const std::size_t side : {0U, 1U}) {
-    std::fill(greatest.begin(), greatest.end(), -1.0);
+  std::vector<double> greatest(at(samples_), -1.0);
+  // Calls accept(sample, center) for the vertices of all cells, and keeps the farthest of those accepted.
+  const auto keep_farthest = [&](std::size_t side, std::uint8_t unbounded_side, const auto& accept) {
     for (std::size_t i = 0; i < sites_.size(); ++i) {
+      const std::int32_t candidate = vertex_[i];
+      if (unbounded_[at(candidate)] > unbounded_side) continue;
       const Vec3 center = centers_[i];
       for (const std::int32_t s : sites_[i]) {
         if (s >= samples_) continue;
-        const Vec3 p = sample_.points[at(s)];
-        const double d = squared_distance(center, p);
-        if (d < greatest[at(s)]) continue;
+        const double d = squared_distance(center, sample_.points[at(s)]);
+        if (d < greatest[at(s)] || !accept(at(s), center)) continue;
         std::int32_t& best = farthest[at(s)][side];
-        if (side == 1 && !(dot(center - p, centers_[at(farthest[at(s)][0])] - p) < 0)) continue;
-        const std::int32_t candidate = vertex_[i];
         if (d == greatest[at(s)]) {
           if (best == candidate) continue;
           const Vec3 other = centers_[at(best)];
@@ -364,8 +370,24 @@ std::vector<std::array<std::int32_t, 2>> Diagram::farthest_vertices(Monitor& mon
         best = candidate;
       }
     }
-    monitor.step(side == 0 ? 0.92 : 0.94);
+  };
+  keep_farthest(0, 1, [](std::size_t, Vec3) { return true; });
+  monitor.step(0.92);
+  const auto behind = [&](std::size_t s, Vec3 center) {
+    const Vec3 p = sample_.points[s];
+    return dot(center - p, centers_[at(farthest[s][0])] - p) < 0;
+  };
+  std::fill(greatest.begin(), greatest.end(), -1.0);
+  keep_farthest(1, 0, behind);
+  // Only where nothing else is on the other side an unbounded vertex is the second pole: samples of thin
+  // sheets.
+  if (std::any_of(farthest.begin(), farthest.end(), [](const auto& pair) { return pair[1] < 0; })) {
+    keep_farthest(1, 1, [&](std::size_t s, Vec3 center) {
+      const std::int32_t found = farthest[s][1];
+      return (found < 0 || unbounded_[at(found)] == 1) && behind(s, center);
+    });
   }
+  monitor.step(0.94);
   return farthest;
 }
 

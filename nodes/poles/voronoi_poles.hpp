@@ -10,19 +10,21 @@ namespace ballflow::geometry {
 struct VoronoiPolesOptions {
   // Distance from the centre of the sample's bounding box to the nearest of the far-away points that bound
   // the diagram, in longest edges of that box, at least 4. It matters only to poles that are marked
-  // `unbounded`: how far away they lie, and by that the direction that counts as the outer side of samples
-  // on the convex hull.
+  // `unbounded`: how far away they lie, and a little to which side of samples on the convex hull is outer.
   double bounding_distance = 10;
 };
 
 /// The poles of every sample [Amenta and Bern 1999, section 4; Kornberger 2010, 3.3 and 3.4]: the vertex of
-/// its Voronoi cell farthest from it, and the farthest one v with (v - s) . (p1 - s) < 0. All labels are
-/// `unlabelled`.
+/// its Voronoi cell farthest from it, and the farthest one v on the other side, (v - s) . (p1 - s) < 0. All
+/// labels are `unlabelled`.
 ///
 /// The diagram is that of the sample and twelve far-away points around it, so every cell of a sample is
 /// bounded. A Voronoi vertex changes only if its empty ball would contain a far-away point. That ball touches
 /// a sample and is longer than bounding_distance - 1 box edges, so its centre lies well outside the box, and
-/// what replaces it is marked `unbounded`: no pole inside the box depends on the far-away points.
+/// what replaces it is marked `unbounded`: no pole inside the box depends on the far-away points. The first
+/// pole of a sample on the convex hull is unbounded, its second pole bounded wherever the cell has a bounded
+/// vertex on the other side. (Amenta and Bern take the mean normal of the hull for the direction of the
+/// first.)
 ///
 /// - accepts any finite, pairwise distinct points that are not all in one plane, cospherical ones too: which
 ///   Voronoi vertices coincide is decided exactly
