@@ -1,0 +1,60 @@
+#include "export/export.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "ballflow/error.hpp"
+#include "export/format_table.hpp"
+
+namespace ballflow {
+namespace {
+
+std::vector<Format> formats_of(std::string_view type) {
+  static const std::vector<TypeFormats> table = {
+      point_set_formats(), triangle_mesh_formats(),      balls_formats(),
+      pole_set_formats(),  simplicial_complex_formats(), medial_axis_formats()};
+  std::vector<Format> formats;
+  for (const TypeFormats& entry : table) {
+    if (entry.type == type) formats = entry.formats;
+  }
+  for (const Format& generic : generic_formats()) formats.push_back(generic);
+  return formats;
+}
+
+std::string extension(const std::string& path) {
+  std::string text = std::filesystem::path(path).extension().string();
+  if (!text.empty()) text.erase(0, 1);
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> export_formats(std::string_view type) {
+  std::vector<std::string> names;
+  for (const Format& format : formats_of(type)) names.emplace_back(format.name);
+  return names;
+}
+
+std::string default_format(std::string_view type) { return std::string(formats_of(type).front().name); }
+
+void export_artifact(const Artifact& artifact, const std::string& path, const std::string& format) {
+  const std::string name = format.empty() ? extension(path) : format;
+  const std::vector<Format> formats = formats_of(artifact.type());
+  const auto found =
+      std::find_if(formats.begin(), formats.end(), [&](const Format& f) { return f.name == name; });
+  if (found == formats.end()) {
+    std::string all;
+    for (const Format& f : formats) all += (all.empty() ? "" : ", ") + std::string(f.name);
+    throw Error(ExitCode::usage,
+                name.empty() ? path + " has no extension that names a format"
+                             : "a " + artifact.type() + " cannot be written as \"" + name + "\"",
+                "use one of " + all);
+  }
+  OutputFile out(path);
+  found->write(artifact, out);
+  out.commit();
+}
+
+}  // namespace ballflow
