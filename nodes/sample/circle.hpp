@@ -6,7 +6,7 @@
 
 namespace ballflow::geometry {
 
-/// {cos, sin} of `turns` full turns, within 2e-16. Multiples of a quarter are exact.
+/// {cos, sin} of `turns` full turns, within 1e-15. Multiples of a quarter are exact.
 inline std::array<double, 2> on_circle(double turns) {
   turns -= std::floor(turns);
   const int quarter =

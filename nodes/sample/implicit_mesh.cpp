@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -16,10 +17,9 @@ using Quad = std::array<Index, 4>;
 constexpr int relaxation_rounds = 16;
 // Newton steps that finish a vertex; four reach rounding error from where relaxation leaves it.
 constexpr int newton_steps = 6;
-// Where a plane of the grid is nearly tangent to the surface at a saddle, one face of a cell may be cut
-// twice, and the quads meet in a non-manifold edge. Then the grid is moved; each place fails for few
-// surfaces.
-constexpr int most_grids = 24;
+// Two neighbouring cells may still meet in a face whose two cuts belong to one sheet in both: a non-manifold
+// edge. Then the grid is moved.
+constexpr int most_grids = 8;
 // Cells of the grid that measures the area.
 constexpr double probe_cells = 60 * 60 * 60;
 
@@ -36,6 +36,48 @@ struct Frame {
   }
   Vec3 local(const Vec3& p) const { return {dot(axes[0], p), dot(axes[1], p), dot(axes[2], p)}; }
   Vec3 world(const Vec3& q) const { return q.x * axes[0] + q.y * axes[1] + q.z * axes[2]; }
+};
+
+/// The sheets of the surface in a cell, by the signs of its corners (bit a of the mask: corner a is inside;
+/// bits 0, 1, 2 of a are its x, y, z). Inside corners are connected along edges, outside corners also across
+/// faces; a cut edge belongs to the sheet between the sets of its ends.
+class Sheets {
+ public:
+  Sheets() {
+    for (std::size_t mask = 0; mask < 256; ++mask) {
+      std::array<int, 8> set{0, 1, 2, 3, 4, 5, 6, 7};
+      const auto inside = [mask](std::size_t corner) { return ((mask >> corner) & 1) != 0; };
+      const auto join = [&set](std::size_t a, std::size_t b) {
+        const int from = set[a], to = set[b];
+        std::replace(set.begin(), set.end(), from, to);
+      };
+      for (std::size_t a = 0; a < 8; ++a) {
+        for (std::size_t b = 0; b < a; ++b) {
+          const int differing = std::popcount(a ^ b);
+          if (inside(a) == inside(b) && (differing == 1 || (differing == 2 && !inside(a)))) join(a, b);
+        }
+      }
+      std::vector<std::pair<int, int>> sheets;
+      for (std::size_t a = 0; a < 8; ++a) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const std::size_t b = a ^ (std::size_t{1} << axis);
+          if (inside(a) == inside(b)) continue;
+          const std::pair sheet = inside(a) ? std::pair(set[a], set[b]) : std::pair(set[b], set[a]);
+          const auto found = std::find(sheets.begin(), sheets.end(), sheet);
+          of_edge_[mask][a][axis] = static_cast<Index>(found - sheets.begin());
+          if (found == sheets.end()) sheets.push_back(sheet);
+        }
+      }
+      count_[mask] = static_cast<Index>(sheets.size());
+    }
+  }
+  Index count(std::size_t mask) const { return count_[mask]; }
+  /// The sheet that cuts the edge of corner a along an axis.
+  Index of_edge(std::size_t mask, std::size_t a, std::size_t axis) const { return of_edge_[mask][a][axis]; }
+
+ private:
+  std::array<std::array<std::array<Index, 3>, 8>, 256> of_edge_{};
+  std::array<Index, 256> count_{};
 };
 
 /// One pass over a grid of spacing h, two layers of values in memory.
@@ -57,8 +99,8 @@ class Contouring {
     nz_ = cells(box.upper.z - box.lower.z);
     below_.resize(nodes());
     above_.resize(nodes());
-    previous_.assign(nodes(), -1);
-    current_.assign(nodes(), -1);
+    previous_.resize(nodes());
+    current_.resize(nodes());
   }
 
   void run() {
@@ -102,35 +144,45 @@ class Contouring {
     }
   }
 
-  /// The mean of the points where the edges of a cell cross the surface, by linear interpolation.
+  /// One vertex per sheet: the mean of the points where it cuts edges, by linear interpolation.
   void place_vertices(Index k) {
     for (Index j = 0; j < ny_; ++j) {
       for (Index i = 0; i < nx_; ++i) {
-        current_[at(i, j)] = -1;
         const std::array<double, 8> f = {
             below_[at(i, j)], below_[at(i + 1, j)], below_[at(i, j + 1)], below_[at(i + 1, j + 1)],
             above_[at(i, j)], above_[at(i + 1, j)], above_[at(i, j + 1)], above_[at(i + 1, j + 1)]};
-        int inside = 0;
-        for (const double value : f) inside += value < 0;
-        if (inside == 0 || inside == 8) continue;
-        Vec3 sum;
-        int crossings = 0;
-        for (std::size_t a = 0; a < 8; ++a) {
-          for (const std::size_t bit : {1u, 2u, 4u}) {
-            const std::size_t b = a | bit;
-            if (b == a || (f[a] < 0) == (f[b] < 0)) continue;
-            const double t = f[a] / (f[a] - f[b]);
-            const auto coordinate = [&](std::size_t axis) {
-              return bit == axis ? t : static_cast<double>((a & axis) != 0);
-            };
-            sum = sum + Vec3{coordinate(1), coordinate(2), coordinate(4)};
-            ++crossings;
+        std::size_t mask = 0;
+        for (std::size_t a = 0; a < 8; ++a) mask |= static_cast<std::size_t>(f[a] < 0) << a;
+        current_[at(i, j)] = {static_cast<Index>(vertices.size()), static_cast<std::uint8_t>(mask)};
+        for (Index sheet = 0; sheet < sheets_.count(mask); ++sheet) {
+          Vec3 sum;
+          int crossings = 0;
+          for (std::size_t a = 0; a < 8; ++a) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+              const std::size_t b = a | (std::size_t{1} << axis);
+              if (b == a || (f[a] < 0) == (f[b] < 0) || sheets_.of_edge(mask, a, axis) != sheet) continue;
+              const double t = f[a] / (f[a] - f[b]);
+              const auto coordinate = [&](std::size_t c) {
+                return c == axis ? t : static_cast<double>((a >> c) & 1);
+              };
+              sum = sum + Vec3{coordinate(0), coordinate(1), coordinate(2)};
+              ++crossings;
+            }
           }
+          vertices.push_back(frame_.world(node(i, j, k) + (h_ / crossings) * sum));
         }
-        current_[at(i, j)] = static_cast<Index>(vertices.size());
-        vertices.push_back(frame_.world(node(i, j, k) + (h_ / crossings) * sum));
       }
     }
+  }
+
+  struct Cell {
+    Index first_vertex = 0;  // of its sheets
+    std::uint8_t mask = 0;
+  };
+
+  /// Vertex of the sheet of a cell that cuts the edge of corner a along an axis.
+  Index vertex(const Cell& cell, std::size_t a, std::size_t axis) const {
+    return cell.first_vertex + sheets_.of_edge(cell.mask, a, axis);
   }
 
   void add(Quad quad, bool outward) {
@@ -144,30 +196,33 @@ class Contouring {
       for (Index i = 1; i < nx_; ++i) {
         const bool inside = below_[at(i, j)] < 0;
         if (inside != (below_[at(i + 1, j)] < 0)) {
-          add({previous_[at(i, j - 1)], previous_[at(i, j)], current_[at(i, j)], current_[at(i, j - 1)]},
+          add({vertex(previous_[at(i, j - 1)], 6, 0), vertex(previous_[at(i, j)], 4, 0),
+               vertex(current_[at(i, j)], 0, 0), vertex(current_[at(i, j - 1)], 2, 0)},
               inside);
         }
         if (inside != (below_[at(i, j + 1)] < 0)) {
-          add({previous_[at(i - 1, j)], current_[at(i - 1, j)], current_[at(i, j)], previous_[at(i, j)]},
+          add({vertex(previous_[at(i - 1, j)], 5, 1), vertex(current_[at(i - 1, j)], 1, 1),
+               vertex(current_[at(i, j)], 0, 1), vertex(previous_[at(i, j)], 4, 1)},
               inside);
         }
         if (inside != (above_[at(i, j)] < 0)) {
-          add({current_[at(i - 1, j - 1)], current_[at(i, j - 1)], current_[at(i, j)],
-               current_[at(i - 1, j)]},
+          add({vertex(current_[at(i - 1, j - 1)], 3, 2), vertex(current_[at(i, j - 1)], 2, 2),
+               vertex(current_[at(i, j)], 0, 2), vertex(current_[at(i - 1, j)], 1, 2)},
               inside);
         }
       }
     }
   }
 
+  inline static const Sheets sheets_;
   const ImplicitSurface& surface_;
   double h_;
   Monitor& monitor_;
   Frame frame_;
   Vec3 origin_;
   Index nx_ = 0, ny_ = 0, nz_ = 0;
-  std::vector<double> below_, above_;      // values at the nodes of two layers
-  std::vector<Index> previous_, current_;  // vertices of the cells of two layers, -1 for none
+  std::vector<double> below_, above_;     // values at the nodes of two layers
+  std::vector<Cell> previous_, current_;  // cells of two layers
 };
 
 Vec3 newton_step(const ImplicitSurface& surface, const Vec3& p, double longest) {
