@@ -127,7 +127,11 @@ class HeaderParser {
 
   void element() {
     Element element;
-    element.name = text_.token_on_line();
+    const std::string_view name = text_.token_on_line();
+    // Names appear in messages.
+    const bool printable = std::all_of(name.begin(), name.end(), [](char c) { return c > ' ' && c <= '~'; });
+    if (name.empty() || !printable) refuse(name, excerpt(name) + " is no name of an element");
+    element.name = name;
     const std::string_view token = text_.token_on_line();
     const auto count = parse_integer(token);
     if (!count || *count < 0)

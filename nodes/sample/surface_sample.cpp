@@ -46,8 +46,9 @@ class Triangles {
       const auto index = std::min(static_cast<std::size_t>(found - areas_.begin()), areas_.size() - 1);
       const Triangle& t = mesh_.triangles[index];
       const double s = std::sqrt(random.unit()), u = random.unit();
-      const Vec3 p = (1 - s) * corner(t, 0) + (s * (1 - u)) * corner(t, 1) + (s * u) * corner(t, 2);
-      result.points.push_back(p + Vec3{0, 0, 0});  // no -0
+      const Vec3 &a = corner(t, 0), ab = corner(t, 1) - a, ac = corner(t, 2) - a;
+      const Vec3 p = a + s * ((1 - u) * ab + u * ac);  // stays exactly in planes across an axis
+      result.points.push_back(p + Vec3{0, 0, 0});      // no -0
       result.triangles.push_back(static_cast<std::int32_t>(index));
     }
     return result;
