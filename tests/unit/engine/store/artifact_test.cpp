@@ -28,7 +28,7 @@ std::string file_of(std::string header, const std::string& data) {
 
 ArtifactPtr decode(const std::string& bytes) {
   const auto copy = std::make_shared<std::vector<std::byte>>(bytes.size());
-  std::memcpy(copy->data(), bytes.data(), bytes.size());
+  if (!bytes.empty()) std::memcpy(copy->data(), bytes.data(), bytes.size());
   return Artifact::decode(*copy, copy);
 }
 

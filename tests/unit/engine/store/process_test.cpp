@@ -123,15 +123,12 @@ TEST_F(ProcessTest, readers_of_an_entry_being_replaced_see_one_or_the_other) {
     const auto other = Store::open({root});
     for (int i = 0; i < 150; ++i) other->put_action(key, i % 2 == 0 ? second : first);
   });
-  int seen[2] = {0, 0};
   for (int i = 0; i < 3000; ++i) {
     const auto found = store->find_action(key);
     ASSERT_TRUE(found) << i;
     ASSERT_TRUE(test::equal(*found, first) || test::equal(*found, second)) << i;
-    ++seen[test::equal(*found, first) ? 0 : 1];
   }
   EXPECT_EQ(finish(writer), 0);
-  EXPECT_GT(seen[0] + seen[1], 0);
 }
 
 TEST_F(ProcessTest, killed_writers_leave_whole_entries_or_none) {
