@@ -179,6 +179,7 @@ class Axis {
 
   void add_regular_part();
   void place_cells();
+  bool all_on(std::int32_t ball, std::span<const std::int32_t> sites) const;
   std::int32_t common_ball(std::span<const std::int32_t> sites) const;
   double depth(std::int32_t w, Vec3 x) const;
   void add_facets();
@@ -192,6 +193,7 @@ class Axis {
   const SimplicialComplex& complex_;
   Monitor& monitor_;
   double size_ = 0;  // longest edge of the bounding box of the union
+  double same_ = 0;  // Voronoi vertices so close to a ball centre or to the boundary of R are on it
 
   UnionVertices sites_;
   std::vector<DelaunayCell> cells_;
@@ -207,14 +209,18 @@ class Axis {
   std::vector<std::int32_t> isolated_;
 };
 
+/// Whether the sphere of the ball passes through all the sites.
+bool Axis::all_on(std::int32_t ball, std::span<const std::int32_t> sites) const {
+  return std::all_of(sites.begin(), sites.end(), [&](std::int32_t w) {
+    const auto all = sites_.balls_of(at(w));
+    return std::find(all.begin(), all.end(), ball) != all.end();
+  });
+}
+
 /// The smallest ball with all the given sites on its sphere, -1 when there is none.
 std::int32_t Axis::common_ball(std::span<const std::int32_t> sites) const {
   for (const std::int32_t ball : sites_.balls_of(at(sites[0]))) {
-    const bool shared = std::all_of(sites.begin() + 1, sites.end(), [&](std::int32_t w) {
-      const auto all = sites_.balls_of(at(w));
-      return std::find(all.begin(), all.end(), ball) != all.end();
-    });
-    if (shared) return ball;
+    if (all_on(ball, sites.subspan(1))) return ball;
   }
   return -1;
 }
@@ -256,7 +262,6 @@ double Axis::depth(std::int32_t w, Vec3 x) const {
 }
 
 void Axis::place_cells() {
-  const double same = std::ldexp(size_, -36);
   vertices_.resize(cells_.size());
   positions_.resize(cells_.size());
   for (std::size_t i = 0; i < cells_.size(); ++i) {
@@ -278,7 +283,7 @@ void Axis::place_cells() {
     // A sphere may pass through a site that does not carry its name.
     for (const std::int32_t w : cell.corners) {
       for (const std::int32_t b : sites_.balls_of(at(w))) {
-        if (squared_distance(x, center(b)) <= same * same) v = {Place::on, b};
+        if (squared_distance(x, center(b)) <= same_ * same_) v = {Place::on, b};
       }
     }
     if (v.place == Place::on) continue;
@@ -303,6 +308,7 @@ void Axis::add_regular_part() {
     box.add(center(b) + Vec3{r, r, r});
   }
   size_ = box.longest_edge();
+  same_ = std::ldexp(size_, -36);
   sites_ = union_vertices(complex_, std::ldexp(size_, -40));
   monitor_.step(0.1);
   cells_ = delaunay_cells(sites_.points);
@@ -367,18 +373,21 @@ void Axis::add_facet(std::int32_t w0, std::int32_t w1, std::span<const std::int3
     for (std::size_t k = 0; k < n; ++k) polygon.push_back(vertex(k).name);
     return keep_inside(std::move(polygon), w0, w1, false);
   }
-  // Where the Voronoi edge behind vertex k leaves R: in the centre of the ball its three sites share.
-  const auto leave = [&](std::size_t k, Polygon& polygon) {
-    const std::array<std::int32_t, 3> sites{w0, w1, apexes[k % n]};
-    const std::int32_t ball = sites[2] == infinite ? -1 : common_ball(sites);
+  // Where the Voronoi edge behind ring[edge] leaves R, seen from its end `inner`: in the centre of the ball
+  // its three sites share. That may be `inner` itself.
+  const auto leave = [&](std::size_t edge, std::size_t inner, Polygon& polygon) {
+    const std::array<std::int32_t, 3> sites{w0, w1, apexes[edge % n]};
+    const VoronoiVertex v = vertex(inner);
+    if (sites[2] == infinite || (v.place == Place::on && all_on(v.name, sites))) return;
+    const std::int32_t ball = common_ball(sites);
     if (ball >= 0) polygon.push_back(ball);
   };
   for (std::size_t k = start; k < start + n; ++k) {
     if (vertex(k).place == Place::out) continue;
     Polygon polygon;
-    if (vertex(k).place == Place::in) leave(k + n - 1, polygon);
+    leave(k + n - 1, k, polygon);
     for (; vertex(k).place != Place::out; ++k) polygon.push_back(vertex(k).name);
-    if (vertex(k - 1).place == Place::in) leave(k - 1, polygon);
+    leave(k - 1, k - 1, polygon);
     keep_inside(std::move(polygon), w0, w1, true);
   }
 }
@@ -387,9 +396,9 @@ void Axis::add_facet(std::int32_t w0, std::int32_t w1, std::span<const std::int3
 /// between the last corner and the first.
 void Axis::keep_inside(Polygon polygon, std::int32_t w0, std::int32_t w1, bool cut) {
   const auto is_ball = [this](std::int32_t name) { return name < balls(); };
-  const auto inside = [&](Vec3 x) {  // the site that sees x more clearly decides
+  const auto depth_of = [&](Vec3 x) {  // the site that sees x more clearly decides
     const double d0 = depth(w0, x), d1 = depth(w1, x);
-    return (std::abs(d0) > std::abs(d1) ? d0 : d1) > 0;
+    return std::abs(d0) > std::abs(d1) ? d0 : d1;
   };
   if (std::all_of(polygon.begin(), polygon.end(), is_ball)) {
     Polygon centers = polygon;
@@ -398,7 +407,8 @@ void Axis::keep_inside(Polygon polygon, std::int32_t w0, std::int32_t w1, bool c
     if (centers.size() < 3) return;
     Vec3 centroid;
     for (const std::int32_t b : centers) centroid = centroid + center(b);
-    if (!inside((1.0 / static_cast<double>(centers.size())) * centroid)) return;
+    // A facet may lie in the boundary of R: the polytope outside it is then flat.
+    if (depth_of((1.0 / static_cast<double>(centers.size())) * centroid) < -same_) return;
   }
   if (std::count_if(polygon.begin(), polygon.end(), is_ball) < 2)
     return add_polygon(polygon, AxisKind::voronoi);
@@ -425,7 +435,7 @@ void Axis::keep_inside(Polygon polygon, std::int32_t w0, std::int32_t w1, bool c
     if (a == b || !is_ball(a) || !is_ball(b)) continue;
     if (is_shared(a, b)) {
       wall = true;
-    } else if (shared.size() > 1 && ((last && cut) || !inside(0.5 * (center(a) + center(b))))) {
+    } else if (shared.size() > 1 && ((last && cut) || depth_of(0.5 * (center(a) + center(b))) <= same_)) {
       const Polygon path = path_between(a, b, shared);
       corners.insert(corners.end(), path.begin(), path.end());
       wall = wall || !path.empty();
