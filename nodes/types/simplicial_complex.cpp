@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -47,19 +48,26 @@ std::string broken_list(std::span<const Simplex<K>> list, std::size_t balls) {
 /// is the facet of nothing.
 template <std::size_t K>
 std::string broken_faces(std::span<const Simplex<K>> list, std::span<const Simplex<K - 1>> faces,
-                         std::span<const std::uint8_t> classes) {
+                         std::span<const std::uint8_t> classes, std::size_t balls) {
   if (classes.size() != faces.size()) {
     return std::to_string(faces.size()) + " simplices of dimension " + std::to_string(K - 2) + " but " +
            std::to_string(classes.size()) + " classes";
   }
+  // Where the faces that begin with a ball begin: a face is then searched among few.
+  std::vector<std::size_t> begin(balls + 1);
+  for (const Simplex<K - 1>& face : faces) ++begin[static_cast<std::size_t>(face[0]) + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
   std::vector<bool> has_coface(faces.size());
   for (const Simplex<K>& simplex : list) {
     for (std::size_t omitted = 0; omitted < K; ++omitted) {
       Simplex<K - 1> face{};
       for (std::size_t k = 0; k + 1 < K; ++k) face[k] = simplex[k < omitted ? k : k + 1];
-      const auto at = std::lower_bound(faces.begin(), faces.end(), face);
-      if (at == faces.end() || *at != face)
+      const auto first = static_cast<std::size_t>(face[0]);
+      const auto last = faces.begin() + static_cast<std::ptrdiff_t>(begin[first + 1]);
+      const auto at = std::lower_bound(faces.begin() + static_cast<std::ptrdiff_t>(begin[first]), last, face);
+      if (at == last || *at != face) {
         return name(simplex) + " is listed, its face " + name(face) + " is not";
+      }
       has_coface[static_cast<std::size_t>(at - faces.begin())] = true;
     }
   }
@@ -97,11 +105,11 @@ std::string broken_invariant(const SimplicialComplex& complex) {
   if (broken.empty()) broken = broken_list(complex.edges.span(), n);
   if (broken.empty()) broken = broken_list(complex.triangles.span(), n);
   if (broken.empty()) broken = broken_list(complex.tetrahedra.span(), n);
-  if (broken.empty()) broken = broken_faces(complex.edges.span(), points, complex.vertex_classes);
+  if (broken.empty()) broken = broken_faces(complex.edges.span(), points, complex.vertex_classes, n);
   if (broken.empty())
-    broken = broken_faces(complex.triangles.span(), complex.edges.span(), complex.edge_classes);
+    broken = broken_faces(complex.triangles.span(), complex.edges.span(), complex.edge_classes, n);
   if (broken.empty())
-    broken = broken_faces(complex.tetrahedra.span(), complex.triangles.span(), complex.triangle_classes);
+    broken = broken_faces(complex.tetrahedra.span(), complex.triangles.span(), complex.triangle_classes, n);
   if (!broken.empty()) return broken;
 
   const auto [b0, b1, b2] = complex.betti;
