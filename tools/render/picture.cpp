@@ -32,7 +32,7 @@ struct Canvas {
 // From violet (0) over blue and green to yellow (1): light grows with the value, also without colours.
 Vector color_of(double value) {
   static const Vector stops[] = {
-      {0.27, 0.10, 0.42}, {0.23, 0.32, 0.60}, {0.13, 0.57, 0.60}, {0.42, 0.79, 0.39}, {0.98, 0.88, 0.20}};
+      {0.50, 0.33, 0.72}, {0.33, 0.47, 0.84}, {0.22, 0.70, 0.74}, {0.56, 0.85, 0.45}, {1.00, 0.88, 0.30}};
   const double place = std::clamp(value, 0.0, 1.0) * 4;
   const auto i = std::min<std::size_t>(3, static_cast<std::size_t>(place));
   return stops[i] + (place - static_cast<double>(i)) * (stops[i + 1] - stops[i]);
@@ -93,7 +93,8 @@ void draw_segment(Canvas& canvas, Vector a, Vector b, double r, Vector from_colo
 void draw_model(Canvas& canvas, const Model& model, double largest_radius) {
   const Vector plain{0.66, 0.70, 0.76};
   std::vector<Vector> colors(model.vertices.size(), plain);
-  for (std::size_t i = 0; i < model.radii.size(); ++i) colors[i] = color_of(model.radii[i] / largest_radius);
+  for (std::size_t i = 0; i < model.radii.size(); ++i)
+    colors[i] = color_of(std::sqrt(model.radii[i] / largest_radius));
 
   if (!model.has_surface()) {
     const double bead = 0.0035 * canvas.height;
@@ -174,10 +175,10 @@ Vector shaded(Canvas& canvas, int x, int y) {
       0.62 * std::max(0.0, dot(pixel.normal, key)) + 0.20 * std::max(0.0, dot(pixel.normal, fill));
   double gloss = std::max(0.0, dot(pixel.normal, half));
   for (int i = 0; i < 5; ++i) gloss *= gloss;  // to the power of 32
-  const double open = 1 - std::min(0.85, 1.3 * occlusion(canvas, x, y, 0.035 * canvas.height));
-  const double line = on_outline(canvas, x, y, 0.02 * canvas.height) ? 0.55 : 1;
+  const double open = 1 - std::min(0.7, 1.1 * occlusion(canvas, x, y, 0.035 * canvas.height));
+  const double line = on_outline(canvas, x, y, 0.02 * canvas.height) ? 0.65 : 1;
   const Vector light =
-      line * open * (0.36 + diffuse) * pixel.color + 0.12 * line * open * gloss * Vector{1, 1, 1};
+      line * open * (0.48 + diffuse) * pixel.color + 0.12 * line * open * gloss * Vector{1, 1, 1};
   return {std::min(1.0, light[0]), std::min(1.0, light[1]), std::min(1.0, light[2])};
 }
 

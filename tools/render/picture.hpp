@@ -14,8 +14,8 @@ struct PictureOptions {
 };
 
 /// Models side by side in one scale, in orthographic projection. Points become beads, balls are spheres,
-/// polygons are surfaces lit from both sides; where there are radii they give the colour (dark: small).
-/// Smooth shading for surfaces without radii. The same bytes for the same input.
+/// polygons are surfaces lit from both sides; where there are radii their square roots give the colour
+/// (violet: small). Smooth shading for surfaces without radii. The same bytes for the same input.
 Image picture(const std::vector<Model>& models, const PictureOptions& options);
 
 }  // namespace ballflow::render
