@@ -45,17 +45,17 @@ Csr columns_of(const CoverState& state, std::span<const std::int32_t> rows,
 }
 
 /// Throws unless every column contains one of `rows`: a solver is never taken at its word.
-void require_cover(const Csr& columns, const Ids& rows, std::size_t component) {
+void require_cover(const Csr& columns, const Ids& rows, std::size_t component, std::size_t balls) {
   for (std::size_t c = 0; c < columns.size(); ++c) {
     const auto column = columns[c];
     const bool met = std::any_of(column.begin(), column.end(), [&](std::int32_t i) {
       return std::binary_search(rows.begin(), rows.end(), i);
     });
     if (met) continue;
-    throw InputError("the solver's answer for component " + std::to_string(component) + " leaves column " +
-                         std::to_string(c) + " of " + std::to_string(columns.size()) + " uncovered",
-                     "this is a bug of the solver: set max_balls below " + std::to_string(columns.size()) +
-                         " and report the instance");
+    throw InputError(
+        "the solver's answer for component " + std::to_string(component) + " leaves column " +
+            std::to_string(c) + " of " + std::to_string(columns.size()) + " uncovered",
+        "this is a bug of the solver: set max_balls below " + std::to_string(balls) + " and report it");
   }
 }
 
@@ -68,8 +68,8 @@ CoverState ip_solve(const CoverState& state, IpSolver& solver, const IpSolveOpti
   const Csr rows_in = grouped(parts.of_row, parts.rows), columns_in = grouped(parts.of_column, parts.columns);
   Ids chosen, number(state.cols());
   for (std::size_t k = 0; k < parts.count(); ++k) {
-    if (parts.rows[k] > options.max_balls) continue;
     if (k % 1024 == 0) monitor.step(static_cast<double>(k) / static_cast<double>(parts.count()));
+    if (parts.rows[k] > options.max_balls) continue;
     const auto rows = rows_in[k], columns = columns_in[k];
     const auto whole = std::find_if(rows.begin(), rows.end(), [&](std::int32_t i) {
       return state.row(static_cast<std::size_t>(i)).size() == columns.size();
@@ -81,7 +81,7 @@ CoverState ip_solve(const CoverState& state, IpSolver& solver, const IpSolveOpti
     const Csr problem = columns_of(state, rows, columns, number);
     const IpAnswer answer = solver.solve(rows.size(), problem, options.node_limit, monitor);
     if (!answer.proven) continue;
-    require_cover(problem, answer.rows, k);
+    require_cover(problem, answer.rows, k, rows.size());
     for (const std::int32_t i : answer.rows) chosen.push_back(rows[static_cast<std::size_t>(i)]);
   }
   if (chosen.empty()) return state;

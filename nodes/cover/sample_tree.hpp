@@ -21,7 +21,7 @@ class SampleTree {
   /// has room for `margin` indices more than the answer has.
   std::int32_t* find(Vec3 center, double squared_reach, std::int32_t* out) const;
 
-  static constexpr std::size_t margin = 16;
+  static constexpr std::size_t margin = 32;
 
   /// All samples, neighbours in space near each other: queries in this order find their nodes in the cache.
   const std::vector<std::int32_t>& order() const { return ids_; }

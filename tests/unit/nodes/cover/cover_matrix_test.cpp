@@ -1,6 +1,7 @@
 #include "cover/cover_matrix.hpp"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include <string>
@@ -75,6 +76,7 @@ TEST(cover_matrix, equals_the_definition_for_balls_of_all_sizes_anywhere) {
 }
 
 TEST(cover_matrix, gives_the_same_bytes_for_any_number_of_threads) {
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 4);
   const auto [balls, points] = test::torus(6000, 0.02, 11);
   const auto with_threads = [&, &b = balls, &p = points](int threads) {
     return tbb::task_arena(threads).execute([&] { return cover_matrix(b, p).cover; });

@@ -1,6 +1,7 @@
 #include "cover/reduce.hpp"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include "cover/cover_matrix.hpp"
@@ -143,6 +144,7 @@ TEST(reduce, leaves_nothing_to_reduce_of_a_matrix_of_balls) {
 }
 
 TEST(reduce, gives_the_same_bytes_for_any_number_of_threads) {
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 4);
   const auto [balls, points] = test::torus(6000, 0.02, 11);
   const CoverState state = cover_matrix(balls, points).cover;
   const auto with_threads = [&](int threads) {
