@@ -393,24 +393,30 @@ TEST(alpha_shape, does_not_change_when_the_model_is_scaled_by_a_power_of_two) {
 
 TEST(alpha_shape, polar_tolerance_joins_balls_that_touch_up_to_rounding) {
   std::mt19937_64 random(9);
-  // Balls through the origin, whose radii are rounded distances: all of them meet there.
   std::vector<Vec3> centers;
   std::vector<double> radii;
-  for (int i = 0; i < 200; ++i) {
-    centers.push_back(uniform_point(random) - Vec3{0.5, 0.5, 0.5});
-    radii.push_back(length(centers.back()));
+  for (int pair = 0; pair < 100; ++pair) {
+    const Vec3 first{10.0 * (pair % 5) + uniform(random, 0, 1), 10.0 * (pair / 5 % 5), 10.0 * (pair / 25)};
+    const Vec3 direction = uniform_point(random) + Vec3{0.01, 0, 0};
+    radii.push_back(uniform(random, 0.5, 1.5));
+    radii.push_back(uniform(random, 0.5, 1.5));
+    centers.push_back(first);
+    centers.push_back(first + ((radii.back() + radii[radii.size() - 2]) / length(direction)) * direction);
   }
   const Balls balls = make_balls(centers, radii);
   const SimplicialComplex exact = shape_of(balls);
   EXPECT_EQ(exact.delta, 0);
+  EXPECT_GT(exact.betti[0], 110) << "rounding separates pairs";
+  EXPECT_LT(exact.betti[0], 190) << "and joins others";
+
   const SimplicialComplex tolerant = shape_of(balls, {.tolerance = AlphaTolerance::polar});
   const double edge = bounding_box(balls).longest_edge();
   EXPECT_EQ(tolerant.delta, std::ldexp(edge * edge, -36));
   for (std::size_t i = 0; i < balls.size(); ++i) {
     EXPECT_EQ(tolerant.weights[i], radii[i] * radii[i] + tolerant.delta);
   }
-  EXPECT_EQ(tolerant.betti, (Betti{1, 0, 0}));
-  // Far apart balls stay apart.
+  EXPECT_EQ(tolerant.betti, (Betti{100, 0, 0}));
+  // What is apart by more than rounding stays apart.
   EXPECT_EQ(
       shape_of(make_balls({{0, 0, 0}, {2.001, 0, 0}}, 1), {.tolerance = AlphaTolerance::polar}).betti[0], 2);
 }
