@@ -32,21 +32,19 @@ struct LabelledPoles {
 /// sample.
 ///
 /// - `mesh`: closed meshes, that is, every edge is run through equally often in both directions once
-/// triangles are
-///   turned over where they disagree. Signed crossings of a ray are counted with exact predicates: right at
-///   sharp edges, where the sample is too coarse, with components inside each other (a component of negative
-///   volume inside another one bounds a cavity) and with self-intersections (inside means wound around at
-///   least once)
+///   triangles are turned over where they disagree. Signed crossings of a ray are counted with exact
+///   predicates: right at sharp edges, where the sample is too coarse, with components inside each other (a
+///   component of negative volume inside another one bounds a cavity) and with self-intersections (inside
+///   means wound around at least once)
 /// - `winding`: any mesh; open ones by the generalized winding number [Jacobson et al. 2013]
 /// - `automatic`: `mesh` when the mesh is closed, else `winding` and a warning that says why and how many
-/// poles
-///   are uncertain
+///   poles are uncertain
 ///
 /// Unbounded poles are outer. A pole exactly on the surface is outer.
 ///
 /// Refuses (InputError) a mesh without triangles, indices out of range, a mesh that is not closed when `mesh`
-/// is asked for, and a mesh that contains no pole at all: an open sheet has no inside. Preconditions: `poles`
-/// and the mesh are in the same coordinates; broken_invariant(poles) is empty.
+/// is asked for, and a mesh that contains no pole at all: an open sheet has no inside.
+/// Preconditions: `poles` and the mesh are in the same coordinates; broken_invariant(poles) is empty.
 LabelledPoles label_poles(const PoleSet& poles, const TriangleMesh& mesh, const LabelPolesOptions& options,
                           Monitor& monitor = no_monitor());
 

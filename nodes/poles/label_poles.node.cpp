@@ -19,20 +19,16 @@ struct LabelPoles {
   LabelPolesOptions options;
 
   static void declare(NodeDecl<LabelPoles>& d) {
-    d.id("LabelPoles", 1)
-        .summary("Tell inner from outer poles: the discrete medial axis transform of a solid.");
+    d.id("LabelPoles", 1);
+    d.summary("Tell inner from outer poles: the discrete medial axis transform of a solid.");
     d.doc(
         "A pole is inner when the winding number of the mesh around it exceeds 1/2. For closed meshes it is "
-        "an "
-        "integer and counted with exact predicates: right at sharp edges, where the sample is too coarse, "
-        "with "
-        "cavities and with self-intersections. For open meshes it is the generalized winding number. "
-        "Triangles that "
-        "face inconsistent ways are turned over; the mesh may be inside out. The summary of `poles` adds "
-        "method, "
-        "uncertain (poles with a winding number from 1/4 to 3/4, or exactly on the surface) and "
-        "turned_triangles. "
-        "Refuses a mesh without triangles and a mesh that contains no pole, such as an open sheet.");
+        "an integer, counted with exact predicates: right at sharp edges, where the sample is too coarse, "
+        "with cavities and with self-intersections. For open meshes it is the generalized winding number. "
+        "Triangles that face inconsistent ways are turned over; the mesh may be inside out. The summary of "
+        "`poles` adds method, uncertain (poles with a winding number from 1/4 to 3/4, or exactly on the "
+        "surface) and turned_triangles. Refuses a mesh without triangles and a mesh that contains no pole, "
+        "such as an open sheet.");
     d.avoid_when("the mesh is not the surface that was sampled, or has large holes: see `uncertain`.");
     d.cites("kornberger2010", "3.4").cites("aichholzer2007", "labels from a mesh");
     d.cites("jacobson2013", "generalized winding number").cites("barill2018", "hierarchical evaluation");

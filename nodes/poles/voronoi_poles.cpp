@@ -353,6 +353,7 @@ std::vector<std::array<std::int32_t, 2>> Diagram::farthest_vertices(Monitor& mon
   // Calls accept(sample, center) for the vertices of all cells, and keeps the farthest of those accepted.
   const auto keep_farthest = [&](std::size_t side, std::uint8_t unbounded_side, const auto& accept) {
     for (std::size_t i = 0; i < sites_.size(); ++i) {
+      if (i % (1 << 16) == 0 && monitor.cancelled()) throw Cancelled();
       const std::int32_t candidate = vertex_[i];
       if (unbounded_[at(candidate)] > unbounded_side) continue;
       const Vec3 center = centers_[i];
@@ -404,6 +405,7 @@ PoleSet Diagram::poles(Monitor& monitor) const {
       cell_of.push_back(cell);
     }
   }
+  monitor.step(0.95);
   const std::size_t count = cell_of.size();
   std::vector<std::int64_t> begin(count + 1, 0);
   for (const std::int32_t cell : vertex_) {

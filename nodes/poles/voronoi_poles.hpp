@@ -10,7 +10,7 @@ namespace ballflow::geometry {
 struct VoronoiPolesOptions {
   // Distance from the centre of the sample's bounding box to the nearest of the far-away points that bound
   // the diagram, in longest edges of that box, at least 4. It matters only to poles that are marked
-  // `unbounded`: how far away they lie, and a little to which side of samples on the convex hull is outer.
+  // `unbounded`: how far away they lie, and a little which direction is outwards on the convex hull.
   double bounding_distance = 10;
 };
 
@@ -21,10 +21,10 @@ struct VoronoiPolesOptions {
 /// The diagram is that of the sample and twelve far-away points around it, so every cell of a sample is
 /// bounded. A Voronoi vertex changes only if its empty ball would contain a far-away point. That ball touches
 /// a sample and is longer than bounding_distance - 1 box edges, so its centre lies well outside the box, and
-/// what replaces it is marked `unbounded`: no pole inside the box depends on the far-away points. The first
-/// pole of a sample on the convex hull is unbounded, its second pole bounded wherever the cell has a bounded
-/// vertex on the other side. (Amenta and Bern take the mean normal of the hull for the direction of the
-/// first.)
+/// what replaces it is marked `unbounded`: Voronoi vertices inside the box do not depend on the far-away
+/// points. The first pole of a sample on the convex hull is unbounded, its second pole bounded wherever the
+/// cell has a bounded vertex on the other side. (Amenta and Bern take the mean normal of the hull for the
+/// direction of the first.)
 ///
 /// - accepts any finite, pairwise distinct points that are not all in one plane, cospherical ones too: which
 ///   Voronoi vertices coincide is decided exactly

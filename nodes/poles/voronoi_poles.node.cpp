@@ -15,18 +15,14 @@ struct VoronoiPoles {
   VoronoiPolesOptions options;
 
   static void declare(NodeDecl<VoronoiPoles>& d) {
-    d.id("VoronoiPoles", 1)
-        .summary("The two poles of every sample: far vertices of its Voronoi cell on either side.");
+    d.id("VoronoiPoles", 1);
+    d.summary("The two poles of every sample: far vertices of its Voronoi cell on either side.");
     d.doc(
         "The first pole of a sample is the vertex of its Voronoi cell farthest from it, the second the "
-        "farthest on "
-        "the other side. Far-away points around the sample bound all cells; Voronoi vertices that depend on "
-        "them "
-        "lie well outside the bounding box and are marked unbounded. Vertices that coincide exactly (five "
-        "and more "
-        "cospherical samples) are one. Accepts any distinct points that are not all in one plane; refuses "
-        "fewer "
-        "than 4 points, equal points and coplanar points.");
+        "farthest on the other side. Far-away points around the sample bound all cells; Voronoi vertices "
+        "that depend on them lie well outside the bounding box and are marked unbounded. Vertices that "
+        "coincide exactly (five and more cospherical samples) are one. Accepts any distinct points that are "
+        "not all in one plane; refuses fewer than 4 points, equal points and coplanar points.");
     d.avoid_when(
         "the points do not sample a surface: poles of points that fill a volume or follow curves mean "
         "nothing.");
@@ -42,8 +38,7 @@ struct VoronoiPoles {
         .at_most(1e6)
         .doc(
             "distance of the far-away points; it matters only to unbounded poles: larger values move them "
-            "farther "
-            "away");
+            "farther away");
   }
   void run(RunContext& context) {
     ContextMonitor monitor(context);

@@ -17,9 +17,9 @@ namespace ballflow::geometry {
 ///
 /// Every closed piece of the boundary is joined to its mean point by triangles. Mesh and these caps together
 /// are a closed chain, whose winding number is an integer that exact predicates count along a ray; what the
-/// caps contribute is a sum of solid angles, subtracted in floating point. So errors come from the caps
-/// alone, closed meshes have none, and thresholds at 1/4, 1/2 and 3/4 are never decided by the error of the
-/// hierarchical sum.
+/// caps contribute is a sum of solid angles, subtracted in floating point. Closed meshes have no
+/// error. The sum over caps is hierarchical: numbers of open meshes are off by up to 1/10, but as much more
+/// accurate as it takes to tell on which side of 1/4, 1/2 and 3/4 they are.
 ///
 /// Orientation is repaired as in SurfaceChain. Of a closed mesh every component is then turned outwards,
 /// except those that bound a cavity: components of negative volume inside components of positive volume.

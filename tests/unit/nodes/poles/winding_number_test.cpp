@@ -94,8 +94,9 @@ TEST(winding_number, of_an_open_mesh_is_the_sum_of_its_solid_angles) {
       const auto corner = [&](std::size_t k) { return open.vertices[static_cast<std::size_t>(t[k])]; };
       sum += solid_angle_fraction(corner(0), corner(1), corner(2), {x, y, z});
     }
-    EXPECT_NEAR(winding.around({x, y, z}).number, sum, 0.01);
-    EXPECT_EQ(winding.around({x, y, z}).number > 0.5, sum > 0.5);
+    const double number = winding.around({x, y, z}).number;
+    EXPECT_NEAR(number, sum, 0.1);
+    for (const double threshold : {0.25, 0.5, 0.75}) EXPECT_EQ(number > threshold, sum > threshold);
   }
 }
 
@@ -109,8 +110,8 @@ TEST(winding_number, of_separate_triangles_is_the_sum_of_their_solid_angles) {
   }
   const WindingNumber winding(separate.mesh(), geometry::no_monitor());
   EXPECT_EQ(winding.chain().boundary.size(), 3 * soup.triangles.size());
-  EXPECT_NEAR(winding.around({0.1, 0.2, 0.3}).number, 1, 0.01);
-  EXPECT_NEAR(winding.around({0.1, 1.2, 0.3}).number, 0, 0.01);
+  EXPECT_NEAR(winding.around({0.1, 0.2, 0.3}).number, 1, 0.1);
+  EXPECT_NEAR(winding.around({0.1, 1.2, 0.3}).number, 0, 0.1);
 }
 
 }  // namespace
