@@ -13,7 +13,7 @@ struct Shift {
   Vec3 by;
 
   static void declare(NodeDecl<Shift>& d) {
-    d.id("acme.Shift", 1).summary("Moves balls by a vector.");
+    d.id("AcmeShift", 1).summary("Moves balls by a vector.");
     d.input("balls", &Shift::balls).doc("n balls");
     d.output("balls", &Shift::shifted).doc("n balls, same order and radii; no defining samples");
     d.param("x", &Shift::by, &Vec3::x).unit("model units").doc("along the x axis; 0 stays");
