@@ -89,9 +89,17 @@ class Runner::Impl {
     const auto start = Clock::now();
     const double cpu = process_cpu_seconds();
     emit({Event::Kind::run_started, 0, 0, false, {}, nullptr});
-    // Each round that ends with a void plan has replaced at least one entry of the store.
-    for (std::size_t round = 0; round <= dag_.nodes.size(); ++round) {
-      if (run_once()) break;
+    // A round that ends with a void plan has learned the new outputs of at least one node. A node that gives
+    // yet another result in every round is given up.
+    for (std::size_t round = 0; !run_once(); ++round) {
+      if (round < dag_.nodes.size()) continue;
+      for (NodeResult& node : result_.nodes) {
+        if (node.status == NodeStatus::hit || node.status == NodeStatus::run) continue;
+        node.status = NodeStatus::failed;
+        node.cause = "needs the output of a node that gives another result whenever it runs";
+        node.hint = "make that node deterministic: see the warnings above";
+      }
+      break;
     }
     result_.seconds = since(start);
     result_.cpu_seconds = process_cpu_seconds() - cpu;
@@ -242,7 +250,7 @@ class Runner::Impl {
         }
       }
     }
-    if (const auto entry = store_->find_action(state.key->key)) return adopt(i, *entry, "same inputs and parameters");
+    if (const auto entry = find_entry(state.key->key)) return adopt(i, *entry, "same inputs and parameters");
 
     if (!admit(i)) return;  // dispatched again when memory is free
     emit({Event::Kind::node_started, i, 0, false, {}, nullptr});
@@ -251,7 +259,7 @@ class Runner::Impl {
     try {
       // Another process may be computing the same key; then its result becomes a hit here.
       const auto lock = store_->lock(state.key->key, [this] { return stopping(); });
-      meanwhile = store_->find_action(state.key->key);
+      meanwhile = find_entry(state.key->key);
       if (!meanwhile && !stopping()) status = compute(i);
     } catch (...) {
       dismiss(i);
@@ -260,6 +268,15 @@ class Runner::Impl {
     dismiss(i);
     if (meanwhile) return adopt(i, *meanwhile, "computed meanwhile by another run");
     settle(i, status, why(i));
+  }
+
+  /// From this run, else from the store.
+  std::optional<ActionEntry> find_entry(const Digest& key) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (const auto found = replaced_.find(key); found != replaced_.end()) return found->second;
+    }
+    return store_->find_action(key);
   }
 
   /// Takes the estimate of the node's memory from the budget; false: put aside until a node has ended.
@@ -377,7 +394,7 @@ class Runner::Impl {
         store_->put_blob(*artifact, outcome.seconds > sync_seconds);
       }
     }
-    store_->put_action(states_[i]->key->key, entry);
+    store_->put_action(states_[i]->key->key, entry, outcome.seconds > sync_seconds);
     return entry.outputs;
   }
 
@@ -418,8 +435,13 @@ class Runner::Impl {
             "not deterministic: equal inputs and parameters gave another result; what depends on it is computed anew",
             nullptr});
     }
-    publish(edge.node, outcome);
-    if (!equal) throw PlanIsVoid();
+    const std::vector<OutputEntry> outputs = publish(edge.node, outcome);
+    if (!equal) {
+      // Kept here too: the store may be read-only.
+      const std::lock_guard run_lock(mutex_);
+      replaced_[state.key->key] = {state.key->manifest, outputs, outcome.warnings, outcome.seconds, outcome.cpu_seconds};
+      throw PlanIsVoid();
+    }
     {
       const std::lock_guard run_lock(mutex_);
       result.status = NodeStatus::run;
@@ -512,6 +534,7 @@ class Runner::Impl {
   std::mutex mutex_, events_mutex_;
   std::map<Digest, Flight> flights_;
   std::vector<std::size_t> deferred_;
+  std::map<Digest, ActionEntry> replaced_;  // of nodes that turned out not to be deterministic
   std::uint64_t memory_used_ = 0;  // estimates of the running nodes
   std::size_t running_ = 0;
   // stop_: nobody wants results any more; stop_starting_: what runs may end, nothing new begins

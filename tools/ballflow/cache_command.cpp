@@ -42,7 +42,8 @@ void add_version(CLI::App& app, Common& common, Action& action) {
   command->callback([&common, &action] {
     action = [&common] {
       std::printf("ballflow %s, plugin ABI %u\n", BALLFLOW_VERSION, BALLFLOW_ABI_VERSION);
-      for (const PluginCandidate& candidate : common.registry()->candidates()) {
+      const auto registry = common.registry();
+      for (const PluginCandidate& candidate : registry->candidates()) {
         if (candidate.refused.empty()) {
           std::printf("  %s %s  %s\n", candidate.name.c_str(), candidate.version.c_str(), candidate.path.c_str());
         } else {

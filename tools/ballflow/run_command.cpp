@@ -115,7 +115,7 @@ int run(const Common& common, const RunArguments& arguments) {
                 near.empty() ? "" : "did you mean \"" + near + "\"?");
   }
   const auto store = common.store();
-  if (!common.no_cache && store->read_only()) {
+  if (!common.no_cache && !store->why().empty()) {
     std::fprintf(stderr, "warning: the cache is not written: %s\n", store->why().c_str());
   }
 
@@ -134,6 +134,9 @@ int run(const Common& common, const RunArguments& arguments) {
   if (!arguments.out.empty() && result.status == ExitCode::ok) {
     files = write_outputs(arguments.out, dag, result, formats,
                           [&runner](const EdgeRef& edge) { return runner.artifact(edge); });
+  }
+  if (const std::string trouble = store->trouble(); !trouble.empty()) {
+    std::fprintf(stderr, "warning: not everything could be cached: %s\n", trouble.c_str());
   }
   const Json report = run_report(run_id(), dag, result);
   save_latest(*store, arguments.graph.file, result, dag, report);

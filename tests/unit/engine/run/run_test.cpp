@@ -224,6 +224,17 @@ TEST_F(RunTest, a_node_that_is_not_deterministic_is_reported_and_its_descendants
   EXPECT_EQ(static_cast<const double*>(result->find("values")->data)[0], 7) << "2 from the second execution + 5";
 }
 
+TEST_F(RunTest, a_node_that_is_never_deterministic_ends_as_a_failure_when_its_result_cannot_be_kept) {
+  Dag dag;
+  const auto noisy = node(dag, "noisy", "Noisy");
+  const auto sum = node(dag, "sum", "Add", {{"a", {noisy, "numbers"}}});
+  dag.outputs.push_back({"noisy", "", {noisy, "numbers"}});
+  run(dag, store());
+  std::filesystem::remove_all(folder.path() + "/cache/cas");
+  dag.outputs = {{"sum", "", {sum, "sum"}}};
+  EXPECT_EQ(run(dag, Store::open({folder.path() + "/cache", true})).status, ExitCode::node_failed);
+}
+
 TEST_F(RunTest, warnings_are_shown_again_on_a_hit) {
   Dag dag;
   const auto source = node(dag, "source", "Source");
