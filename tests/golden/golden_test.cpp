@@ -1,0 +1,93 @@
+// Whole pipelines on generated models. Two kinds of truth: topology that is known from the formula of the
+// model, and figures of an earlier run (BALLFLOW_TEST_ACCEPT=1 rewrites those in tests/golden/ and skips).
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "ballflow/run.hpp"
+#include "test_data.hpp"
+
+namespace ballflow {
+namespace {
+
+class Silent final : public EventSink {
+ public:
+  void on(const Event&) override {}
+};
+
+const Registry& registry() {
+  static const auto instance = Registry::load();
+  return *instance;
+}
+
+struct Case {
+  const char* name;
+  const char* graph;
+  std::vector<Override> overrides;
+  int euler_characteristic;  // of the solid: 1 - genus; ignored for kNoTopology
+};
+constexpr int kNoTopology = 1000;
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
+const std::vector<Case>& cases() {
+  static const std::vector<Case> all = {
+      {"sphere", "medial_axis", {{"input", "shape:sphere?n=2500"}}, 1},
+      {"torus", "medial_axis", {{"input", "shape:torus?n=6000"}}, 0},
+      {"double_torus", "medial_axis", {{"input", "shape:doubleTorus?n=8000"}}, -1},
+      {"3cross", "medial_axis", {{"input", "shape:3cross?n=8000"}}, 1},
+      {"knot", "medial_axis", {{"input", "shape:knot?n=8000"}}, 0},
+      {"torus_exact", "medial_axis", {{"input", "shape:torus?n=6000"}, {"strategy", "reduce_exact_greedy"}}, 0},
+      {"box_dmt", "dmt", {{"input", "shape:box?n=2000"}}, kNoTopology},
+  };
+  return all;
+}
+
+/// The summaries of all outputs: small, deterministic, readable in a diff.
+Json figures(const Dag& dag, const RunResult& result) {
+  Json json = Json::object();
+  for (const DagOutput& output : dag.outputs) {
+    for (const OutputEntry& entry : result.nodes[output.from.node].outputs) {
+      if (entry.port == output.from.port) json[output.name] = Json::parse(entry.summary);
+    }
+  }
+  return json;
+}
+
+class Golden : public testing::TestWithParam<Case> {};
+
+TEST_P(Golden, has_the_topology_of_the_model_and_the_figures_of_before) {
+  const Case& c = GetParam();
+  const Dag dag = load_graph(test::source_file("graphs/" + std::string(c.graph) + ".json"), registry(), c.overrides);
+  Silent silent;
+  Runner runner(dag, registry(), Store::open({}), {}, silent);
+  const RunResult& result = runner.run();
+  for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
+    ASSERT_EQ(result.nodes[i].status, NodeStatus::run) << dag.nodes[i].path << ": " << result.nodes[i].cause;
+  }
+  const Json now = figures(dag, result);
+  if (c.euler_characteristic != kNoTopology) {
+    EXPECT_EQ(now["alpha_shape"]["euler_characteristic"], c.euler_characteristic);
+    EXPECT_EQ(now["medial_axis"]["euler_characteristic"], c.euler_characteristic);
+    EXPECT_EQ(now["alpha_shape"]["betti"], Json({1, 1 - c.euler_characteristic, 0}));
+    EXPECT_EQ(now["medial_axis"]["components"], 1);
+    EXPECT_EQ(now["check"]["uncovered"], 0);
+    EXPECT_EQ(now["cover"]["remaining"], 0);
+  }
+
+  const std::string file = test::source_file("tests/golden/" + std::string(c.name) + ".json");
+  const char* accept = std::getenv("BALLFLOW_TEST_ACCEPT");
+  if (accept != nullptr && std::string(accept) == "1") {
+    test::write_file(file, now.dump(1) + "\n");
+    GTEST_SKIP() << "accepted into " << file;
+  }
+  ASSERT_TRUE(std::filesystem::exists(file)) << "run once with BALLFLOW_TEST_ACCEPT=1";
+  EXPECT_EQ(now.dump(1) + "\n", test::read_file(file));
+}
+
+INSTANTIATE_TEST_SUITE_P(Pipelines, Golden, testing::ValuesIn(cases()),
+                         [](const auto& instance) { return instance.param.name; });
+
+}  // namespace
+}  // namespace ballflow
