@@ -366,28 +366,45 @@ void Axis::add_facet(std::int32_t w0, std::int32_t w1, std::span<const std::int3
                      std::span<const std::int32_t> apexes) {
   const std::size_t n = ring.size();
   const auto vertex = [&](std::size_t k) { return vertices_[at(ring[k % n])]; };
+  // Appends the ball centres on the Voronoi edge behind ring[edge], beginning at its end ring[from]: those of
+  // the balls its three sites share. One is where the edge leaves R, unless its end inside R is.
+  const auto pass = [&](std::size_t edge, std::size_t from, Polygon& polygon) {
+    if (apexes[edge % n] == infinite) return;
+    const std::array<std::int32_t, 3> sites{w0, w1, apexes[edge % n]};
+    const std::size_t before = polygon.size();
+    for (const std::int32_t ball : sites_.balls_of(at(w0))) {
+      if (ball == vertex(edge).name || ball == vertex(edge + 1).name) continue;
+      if (all_on(ball, sites)) polygon.push_back(ball);
+    }
+    if (polygon.size() - before < 2) return;
+    const VoronoiVertex first = vertex(from);
+    const Vec3 start = first.place == Place::on ? center(first.name) : positions_[at(ring[from % n])];
+    std::sort(polygon.begin() + static_cast<std::ptrdiff_t>(before), polygon.end(),
+              [&](std::int32_t a, std::int32_t b) {
+                const double da = squared_distance(center(a), start), db = squared_distance(center(b), start);
+                return da != db ? da < db : a < b;
+              });
+  };
+
   std::size_t start = 0;  // behind a vertex outside R, if there is one
   while (start < n && vertex(start + n - 1).place != Place::out) ++start;
   if (start == n) {
     Polygon polygon;
-    for (std::size_t k = 0; k < n; ++k) polygon.push_back(vertex(k).name);
+    for (std::size_t k = 0; k < n; ++k) {
+      polygon.push_back(vertex(k).name);
+      pass(k, k, polygon);
+    }
     return keep_inside(std::move(polygon), w0, w1, false);
   }
-  // Where the Voronoi edge behind ring[edge] leaves R, seen from its end `inner`: in the centre of the ball
-  // its three sites share. That may be `inner` itself.
-  const auto leave = [&](std::size_t edge, std::size_t inner, Polygon& polygon) {
-    const std::array<std::int32_t, 3> sites{w0, w1, apexes[edge % n]};
-    const VoronoiVertex v = vertex(inner);
-    if (sites[2] == infinite || (v.place == Place::on && all_on(v.name, sites))) return;
-    const std::int32_t ball = common_ball(sites);
-    if (ball >= 0) polygon.push_back(ball);
-  };
   for (std::size_t k = start; k < start + n; ++k) {
     if (vertex(k).place == Place::out) continue;
     Polygon polygon;
-    leave(k + n - 1, k, polygon);
-    for (; vertex(k).place != Place::out; ++k) polygon.push_back(vertex(k).name);
-    leave(k - 1, k - 1, polygon);
+    pass(k + n - 1, k, polygon);
+    std::reverse(polygon.begin(), polygon.end());
+    for (; vertex(k).place != Place::out; ++k) {
+      polygon.push_back(vertex(k).name);
+      pass(k, k, polygon);
+    }
     keep_inside(std::move(polygon), w0, w1, true);
   }
 }
