@@ -1,6 +1,9 @@
 // From an artifact back to the struct of nodes/types that it was made from.
 #pragma once
 
+#include <algorithm>
+#include <vector>
+
 #include "ballflow/artifact.hpp"
 #include "ballflow/error.hpp"
 #include "ballflow/node_decl.hpp"
