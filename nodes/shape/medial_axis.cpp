@@ -9,9 +9,10 @@
 //
 // The facets of P_w other than T_w are pieces of Voronoi facets V(w) * V(w'); a Voronoi facet is cut by the
 // boundary of R along edges ij that triangles of w and w' share, so that every cut point is a ball centre. It
-// therefore suffices to know which Voronoi vertices lie in R, and no intersection is ever computed. All W on
-// one ball are cospherical: their Delaunay cells all have the ball's centre as circumcentre. This is decided
-// by names, never by coordinates, so that rounding cannot tear the centre apart.
+// therefore suffices to know which Voronoi vertices lie in R, and no intersection is ever computed. The
+// centre of a ball lies on every Voronoi edge whose three sites are on its sphere, for no site is nearer to
+// it. All W on one ball are cospherical: their Delaunay cells all have the ball's centre as circumcentre.
+// This is decided by names, never by coordinates, so that rounding cannot tear the centre apart.
 #include "shape/medial_axis.hpp"
 
 #include <CGAL/Delaunay_triangulation_3.h>

@@ -24,11 +24,12 @@ struct MedialAxisOptions {
 ///   cavities, singular parts, several components, balls on a grid.
 /// - Vertices are ball centres (radius: that of the ball) and Voronoi vertices of W (radius: the distance
 ///   to W); vertices, edges and polygons are sorted by the balls that define them.
-/// - Every polygon is plane and convex up to rounding, except where one point of W belongs to several
-///   triangles of the boundary of R that are not coplanar: such a polygon is plane only.
+/// - Every polygon is plane and convex up to rounding; where one point of W belongs to several triangles of
+///   the boundary of R (balls on a grid) it may be only plane.
+/// - Its kind is wall where a side of it is an edge of the boundary of R, which then hangs on that side.
 /// - The Euler characteristic of the axis is compared with that of the complex. They differ only where
-///   rounding hides the structure, as it does for polar balls that were not enlarged: a warning that
-///   names both, or an InputError.
+///   rounding hides the structure: a warning that names both, or an InputError. This happens for polar balls
+///   that were not enlarged, and rarely for balls on a grid of which many touch in one point.
 /// - The complex must hold its invariants (see broken_invariant).
 MedialAxis medial_axis(const SimplicialComplex& complex, const MedialAxisOptions& options, Monitor& monitor);
 
