@@ -110,7 +110,8 @@ void compare(const std::string& path, const Json& before, const Json& now, std::
       }
     }
     for (const auto& [name, value] : now.items()) {
-      if (!before.contains(name)) out.push_back((path.empty() ? name : path + "." + name) + " is new: " + value.dump());
+      if (!before.contains(name))
+        out.push_back((path.empty() ? name : path + "." + name) + " is new: " + value.dump());
     }
     return;
   }
@@ -128,8 +129,8 @@ void compare(const std::string& path, const Json& before, const Json& now, std::
 
 }  // namespace
 
-ActionKey action_key(const DagNode& node, const std::map<std::string, OutputEntry>& inputs, std::uint64_t seed,
-                     Store& store) {
+ActionKey action_key(const DagNode& node, const std::map<std::string, OutputEntry>& inputs,
+                     std::uint64_t seed, Store& store) {
   const NodeDeclaration& decl = *node.decl;
   Json manifest = {{"format", key_format}, {"node", decl.id}, {"version", decl.version}};
   manifest["libraries"] = Json::object();

@@ -16,7 +16,9 @@
 namespace ballflow {
 namespace {
 
-double seconds_of(const timespec& t) { return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec); }
+double seconds_of(const timespec& t) {
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
 
 /// CPU time of all threads while they work in one arena.
 class CpuMeter : public tbb::task_scheduler_observer {
@@ -68,12 +70,15 @@ struct InputView {
       view.name = {array.name.data(), array.name.size()};
       view.dtype = array.dtype;
       view.rank = static_cast<std::uint32_t>(array.shape.size());
-      for (std::size_t i = 0; i < array.shape.size() && i < BALLFLOW_MAX_RANK; ++i) view.shape[i] = array.shape[i];
+      for (std::size_t i = 0; i < array.shape.size() && i < BALLFLOW_MAX_RANK; ++i)
+        view.shape[i] = array.shape[i];
       view.data = array.data;
       arrays.push_back(view);
     }
   }
-  static void retain(void* self) { static_cast<InputView*>(self)->references.fetch_add(1, std::memory_order_relaxed); }
+  static void retain(void* self) {
+    static_cast<InputView*>(self)->references.fetch_add(1, std::memory_order_relaxed);
+  }
   static void release(void* self) {
     auto* view = static_cast<InputView*>(self);
     if (view->references.fetch_sub(1, std::memory_order_acq_rel) == 1) delete view;
@@ -95,7 +100,8 @@ class Host {
   explicit Host(const NodeRunRequest& request) : request_(request) {
     for (const auto& [port, artifact] : request.inputs) views_[port] = new InputView(artifact);
     Json params = Json::object();
-    for (const ParamDecl& param : request.node->decl->params) params[param.name] = request.node->params.at(param.name);
+    for (const ParamDecl& param : request.node->decl->params)
+      params[param.name] = request.node->params.at(param.name);
     params_ = params.dump();
   }
   ~Host() {
@@ -114,10 +120,11 @@ class Host {
     run.cancelled = [](void* self) -> int { return host(self).request_.cancelled() ? 1 : 0; };
     run.progress = [](void* self, double fraction) { host(self).request_.progress(fraction); };
     run.log = [](void* self, std::uint32_t level, bf_bytes text) { host(self).log(level, text); };
-    run.input = [](void* self, bf_bytes port, bf_artifact* artifact) -> int { return host(self).input(port, artifact); };
-    run.output = [](void* self, bf_bytes port, const bf_array* arrays, std::uint64_t count, bf_bytes summary) -> int {
-      return host(self).output(port, arrays, count, summary);
+    run.input = [](void* self, bf_bytes port, bf_artifact* artifact) -> int {
+      return host(self).input(port, artifact);
     };
+    run.output = [](void* self, bf_bytes port, const bf_array* arrays, std::uint64_t count,
+                    bf_bytes summary) -> int { return host(self).output(port, arrays, count, summary); };
     run.fail = [](void* self, bf_bytes cause, bf_bytes hint) { host(self).fail(text(cause), text(hint)); };
     return run;
   }
@@ -158,10 +165,12 @@ class Host {
     owner->arrays.assign(arrays, arrays + count);
     try {
       const PortDecl* decl = request_.node->decl->output(port);
-      if (decl == nullptr) throw Error(ExitCode::plugin, "the node gave an output \"" + port + "\" that it does not declare");
+      if (decl == nullptr)
+        throw Error(ExitCode::plugin, "the node gave an output \"" + port + "\" that it does not declare");
       std::vector<NamedArray> named;
       for (const bf_array& array : owner->arrays) {
-        if (array.rank > BALLFLOW_MAX_RANK) throw Error(ExitCode::plugin, "an array has more than 4 dimensions");
+        if (array.rank > BALLFLOW_MAX_RANK)
+          throw Error(ExitCode::plugin, "an array has more than 4 dimensions");
         named.push_back({text(array.name), array.dtype, {array.shape, array.shape + array.rank}, array.data});
       }
       const ArtifactPtr artifact =
@@ -177,7 +186,8 @@ class Host {
     } catch (const Error& error) {
       fail(error.what(), error.hint().empty() ? "this is a bug of the node; please report it" : error.hint());
     } catch (const std::bad_alloc&) {
-      fail("out of memory while output \"" + port + "\" was sealed", "use a smaller input or a machine with more memory");
+      fail("out of memory while output \"" + port + "\" was sealed",
+           "use a smaller input or a machine with more memory");
     }
     return 1;
   }

@@ -38,12 +38,18 @@ Json outputs_json(const std::vector<OutputEntry>& outputs) {
 
 std::string_view to_string(ExitCode status) {
   switch (status) {
-    case ExitCode::ok: return "ok";
-    case ExitCode::usage: return "usage";
-    case ExitCode::node_failed: return "failed";
-    case ExitCode::cancelled: return "cancelled";
-    case ExitCode::store: return "store";
-    case ExitCode::plugin: return "plugin";
+    case ExitCode::ok:
+      return "ok";
+    case ExitCode::usage:
+      return "usage";
+    case ExitCode::node_failed:
+      return "failed";
+    case ExitCode::cancelled:
+      return "cancelled";
+    case ExitCode::store:
+      return "store";
+    case ExitCode::plugin:
+      return "plugin";
   }
   return "";
 }

@@ -22,7 +22,9 @@ double since(Clock::time_point start) { return std::chrono::duration<double>(Clo
 double process_cpu_seconds() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
@@ -33,7 +35,8 @@ std::uint64_t peak_rss() {
 }
 
 std::uint64_t physical_memory() {
-  return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+  return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
+         static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
 /// What is cheaper to compute again than to write and to read is not stored: a covering matrix of 740 MB
@@ -63,21 +66,31 @@ const OutputEntry* find_output(const std::vector<OutputEntry>& outputs, const st
 
 std::string_view to_string(NodeStatus status) {
   switch (status) {
-    case NodeStatus::pending: return "pending";
-    case NodeStatus::hit: return "hit";
-    case NodeStatus::run: return "run";
-    case NodeStatus::failed: return "failed";
-    case NodeStatus::skipped: return "skipped";
-    case NodeStatus::cancelled: return "cancelled";
+    case NodeStatus::pending:
+      return "pending";
+    case NodeStatus::hit:
+      return "hit";
+    case NodeStatus::run:
+      return "run";
+    case NodeStatus::failed:
+      return "failed";
+    case NodeStatus::skipped:
+      return "skipped";
+    case NodeStatus::cancelled:
+      return "cancelled";
   }
   return "";
 }
 
 class Runner::Impl {
  public:
-  Impl(const Dag& dag, const Registry& registry, std::shared_ptr<Store> store, RunOptions options, EventSink& events,
-       Manifests earlier)
-      : dag_(dag), registry_(registry), store_(std::move(store)), options_(options), events_(events),
+  Impl(const Dag& dag, const Registry& registry, std::shared_ptr<Store> store, RunOptions options,
+       EventSink& events, Manifests earlier)
+      : dag_(dag),
+        registry_(registry),
+        store_(std::move(store)),
+        options_(options),
+        events_(events),
         earlier_(std::move(earlier)) {
     if (options_.threads == 0) options_.threads = std::max(1u, std::thread::hardware_concurrency());
     if (options_.memory_bytes == 0) options_.memory_bytes = physical_memory() / 10 * 8;
@@ -122,19 +135,20 @@ class Runner::Impl {
     try {
       return ensure(output);
     } catch (const PlanIsVoid&) {
-      throw Error(ExitCode::node_failed, dag_.nodes[output.node].path + " gave another result when it was run again",
+      throw Error(ExitCode::node_failed,
+                  dag_.nodes[output.node].path + " gave another result when it was run again",
                   "the node is not deterministic; run the command again to compute what depends on it anew");
     }
   }
 
  private:
   struct State {
-    std::mutex mutex;                          // held while the node's artifacts are made again
-    std::map<std::string, ArtifactPtr> held;   // by port; guarded by mutex
+    std::mutex mutex;                         // held while the node's artifacts are made again
+    std::map<std::string, ArtifactPtr> held;  // by port; guarded by mutex
     std::optional<ActionKey> key;
-    std::vector<std::size_t> consumers;        // needed nodes that read an output, each once
-    std::size_t inputs_missing = 0;            // guarded by mutex_
-    std::size_t consumers_left = 0;            // guarded by mutex_
+    std::vector<std::size_t> consumers;  // needed nodes that read an output, each once
+    std::size_t inputs_missing = 0;      // guarded by mutex_
+    std::size_t consumers_left = 0;      // guarded by mutex_
     std::atomic<std::int64_t> last_progress{0};
   };
   struct Flight {
@@ -142,7 +156,9 @@ class Runner::Impl {
     std::vector<std::size_t> followers;
   };
 
-  bool cancelled() const { return options_.cancel != nullptr && options_.cancel->load(std::memory_order_relaxed); }
+  bool cancelled() const {
+    return options_.cancel != nullptr && options_.cancel->load(std::memory_order_relaxed);
+  }
   bool stopping() const { return cancelled() || stop_.load(std::memory_order_relaxed); }
 
   void emit(const Event& event) {
@@ -237,7 +253,8 @@ class Runner::Impl {
 
     if (!state.key) {
       std::map<std::string, OutputEntry> inputs;
-      for (const auto& [port, edge] : node.inputs) inputs[port] = *find_output(result_.nodes[edge.node].outputs, edge.port);
+      for (const auto& [port, edge] : node.inputs)
+        inputs[port] = *find_output(result_.nodes[edge.node].outputs, edge.port);
       state.key = action_key(node, inputs, options_.seed, *store_);
       result_.nodes[i].manifest = state.key->manifest;
       const std::lock_guard lock(mutex_);
@@ -307,9 +324,11 @@ class Runner::Impl {
     const NodeDeclaration& decl = *dag_.nodes[i].decl;
     std::uint64_t bytes = 0;
     for (const auto& [port, edge] : dag_.nodes[i].inputs) {
-      if (const OutputEntry* entry = find_output(result_.nodes[edge.node].outputs, edge.port)) bytes += entry->bytes;
+      if (const OutputEntry* entry = find_output(result_.nodes[edge.node].outputs, edge.port))
+        bytes += entry->bytes;
     }
-    return decl.memory_fixed + static_cast<std::uint64_t>(decl.memory_per_input_byte * static_cast<double>(bytes));
+    return decl.memory_fixed +
+           static_cast<std::uint64_t>(decl.memory_per_input_byte * static_cast<double>(bytes));
   }
 
   void adopt(std::size_t i, const ActionEntry& entry, const std::string& reason) {
@@ -323,7 +342,8 @@ class Runner::Impl {
       result.warnings = previous->warnings;
       return settle(i, NodeStatus::run, previous->reason);
     }
-    for (const std::string& warning : entry.warnings) emit({Event::Kind::node_message, i, 0, true, warning, nullptr});
+    for (const std::string& warning : entry.warnings)
+      emit({Event::Kind::node_message, i, 0, true, warning, nullptr});
     settle(i, NodeStatus::hit, reason);
   }
 
@@ -361,7 +381,8 @@ class Runner::Impl {
     };
     NodeRunOutcome outcome = run_node(request);
     request.inputs.clear();
-    for (const auto& [port, edge] : node.inputs) {  // made again for this node alone: nobody else will free them
+    for (const auto& [port, edge] :
+         node.inputs) {  // made again for this node alone: nobody else will free them
       bool last = false;
       {
         const std::lock_guard lock(mutex_);
@@ -388,8 +409,8 @@ class Runner::Impl {
     entry.seconds = outcome.seconds;
     entry.cpu_seconds = outcome.cpu_seconds;
     for (const auto& [port, artifact] : outcome.outputs) {
-      entry.outputs.push_back({port, artifact->type(), artifact->version(), artifact->digest(), artifact->file_size(),
-                               artifact->checksum(), artifact->summary()});
+      entry.outputs.push_back({port, artifact->type(), artifact->version(), artifact->digest(),
+                               artifact->file_size(), artifact->checksum(), artifact->summary()});
       if (worth_storing(artifact->file_size(), outcome.seconds)) {
         store_->put_blob(*artifact, outcome.seconds > sync_seconds);
       }
@@ -423,7 +444,8 @@ class Runner::Impl {
     emit({Event::Kind::node_started, edge.node, 0, false, {}, nullptr});
     const NodeRunOutcome outcome = execute(edge.node);
     if (outcome.status != NodeRunOutcome::Status::ok) {
-      throw Error(ExitCode::node_failed, dag_.nodes[edge.node].path + " had to be run again and failed: " + outcome.cause,
+      throw Error(ExitCode::node_failed,
+                  dag_.nodes[edge.node].path + " had to be run again and failed: " + outcome.cause,
                   outcome.hint);
     }
     const bool equal = std::all_of(result.outputs.begin(), result.outputs.end(), [&](const OutputEntry& o) {
@@ -432,14 +454,16 @@ class Runner::Impl {
     });
     if (!equal) {
       emit({Event::Kind::node_message, edge.node, 0, true,
-            "not deterministic: equal inputs and parameters gave another result; what depends on it is computed anew",
+            "not deterministic: equal inputs and parameters gave another result; what depends on it is "
+            "computed anew",
             nullptr});
     }
     const std::vector<OutputEntry> outputs = publish(edge.node, outcome);
     if (!equal) {
       // Kept here too: the store may be read-only.
       const std::lock_guard run_lock(mutex_);
-      replaced_[state.key->key] = {state.key->manifest, outputs, outcome.warnings, outcome.seconds, outcome.cpu_seconds};
+      replaced_[state.key->key] = {state.key->manifest, outputs, outcome.warnings, outcome.seconds,
+                                   outcome.cpu_seconds};
       throw PlanIsVoid();
     }
     {
@@ -535,7 +559,7 @@ class Runner::Impl {
   std::map<Digest, Flight> flights_;
   std::vector<std::size_t> deferred_;
   std::map<Digest, ActionEntry> replaced_;  // of nodes that turned out not to be deterministic
-  std::uint64_t memory_used_ = 0;  // estimates of the running nodes
+  std::uint64_t memory_used_ = 0;           // estimates of the running nodes
   std::size_t running_ = 0;
   // stop_: nobody wants results any more; stop_starting_: what runs may end, nothing new begins
   std::atomic<bool> stop_{false}, stop_starting_{false}, void_{false};

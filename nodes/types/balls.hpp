@@ -10,8 +10,8 @@
 namespace ballflow::geometry {
 
 struct Balls {
-  Array<Vec3> centers;   // n x 3, model units; finite
-  Array<double> radii;   // n, model units, >= 0; weights of power diagrams are radii^2 (thesis, 2.4)
+  Array<Vec3> centers;  // n x 3, model units; finite
+  Array<double> radii;  // n, model units, >= 0; weights of power diagrams are radii^2 (thesis, 2.4)
 
   // The samples that define each ball: a polar ball passes through them, so it covers them whatever
   // rounding says. Ball i is defined by defining_samples[defining_offsets[i] .. defining_offsets[i + 1]),

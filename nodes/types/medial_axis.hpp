@@ -23,8 +23,8 @@ struct MedialAxis {
 
   Array<std::array<std::int32_t, 2>> edges;  // e x 2 vertex indices: edges that bound no polygon
   Array<std::int64_t> polygon_offsets;       // f + 1
-  Array<std::int32_t> polygon_vertices;      // corners of polygon i: [polygon_offsets[i], polygon_offsets[i + 1])
-  Array<std::uint8_t> polygon_kinds;         // f, AxisKind
+  Array<std::int32_t> polygon_vertices;  // corners of polygon i: [polygon_offsets[i], polygon_offsets[i + 1])
+  Array<std::uint8_t> polygon_kinds;     // f, AxisKind
 
   std::size_t polygons() const { return polygon_kinds.size(); }
   std::span<const std::int32_t> polygon(std::size_t i) const {

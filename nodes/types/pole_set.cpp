@@ -10,6 +10,8 @@ namespace ballflow::geometry {
 
 namespace {
 
+constexpr auto unlabelled = static_cast<std::uint8_t>(PoleLabel::unlabelled);
+
 std::string pole_name(std::size_t pole) { return "pole " + std::to_string(pole); }
 
 std::span<const std::int32_t> samples_of(const PoleSet& poles, std::size_t pole) {
@@ -78,34 +80,58 @@ std::string broken_pole(const PoleSet& poles, std::size_t i) {
   return {};
 }
 
+std::string broken_sample(const PoleSet& poles, std::size_t s) {
+  const std::array<std::int32_t, 3> own = poles.sample_poles[s];
+  const std::string name = "sample " + std::to_string(s);
+  for (const std::int32_t pole : own) {
+    if (pole == -1) continue;
+    if (pole < 0 || static_cast<std::size_t>(pole) >= poles.size()) {
+      return name + " has pole " + std::to_string(pole) + " of " + std::to_string(poles.size());
+    }
+    const auto defining = samples_of(poles, static_cast<std::size_t>(pole));
+    if (!std::binary_search(defining.begin(), defining.end(), static_cast<std::int32_t>(s))) {
+      return name + " has " + pole_name(static_cast<std::size_t>(pole)) + ", which it does not define";
+    }
+  }
+  if (own[0] == -1 && own[1] != -1) return name + " has a second pole but no first";
+  if (own[0] != -1 && own[0] == own[1]) return name + " has the same pole on both sides";
+  if (own[2] == -1) return {};
+  const std::uint8_t third = poles.labels[static_cast<std::size_t>(own[2])];
+  for (const std::int32_t pole : {own[0], own[1]}) {
+    if (pole == -1) continue;
+    const std::uint8_t label = poles.labels[static_cast<std::size_t>(pole)];
+    if (label == unlabelled || third == unlabelled) return name + " has a third pole before all are labelled";
+    if (label == third) return name + " has a third pole on the side of its others";
+  }
+  return {};
+}
+
 }  // namespace
+
+std::vector<std::uint8_t> is_pole(const PoleSet& poles) {
+  std::vector<std::uint8_t> pole(poles.size(), 0);
+  for (const auto& own : poles.sample_poles) {
+    for (const std::int32_t i : own) {
+      if (i >= 0) pole[static_cast<std::size_t>(i)] = 1;
+    }
+  }
+  return pole;
+}
 
 std::string broken_invariant(const PoleSet& poles) {
   if (std::string broken = broken_lengths(poles); !broken.empty()) return broken;
   for (std::size_t i = 0; i < poles.size(); ++i) {
     if (std::string broken = broken_pole(poles, i); !broken.empty()) return broken;
   }
-  std::vector<bool> used(poles.size(), false);
   for (std::size_t s = 0; s < poles.sample_poles.size(); ++s) {
-    const std::array<std::int32_t, 2> pair = poles.sample_poles[s];
-    const auto name = [s] { return "sample " + std::to_string(s); };
-    for (const std::int32_t pole : pair) {
-      if (pole == -1) continue;
-      if (pole < 0 || static_cast<std::size_t>(pole) >= poles.size()) {
-        return name() + " has pole " + std::to_string(pole) + " of " + std::to_string(poles.size());
-      }
-      const auto defining = samples_of(poles, static_cast<std::size_t>(pole));
-      if (!std::binary_search(defining.begin(), defining.end(), static_cast<std::int32_t>(s))) {
-        return name() + " has " + pole_name(static_cast<std::size_t>(pole)) + ", which it does not define";
-      }
-      used[static_cast<std::size_t>(pole)] = true;
-    }
-    if (pair[0] == -1 && pair[1] != -1) return name() + " has a second pole but no first";
-    if (pair[0] != -1 && pair[0] == pair[1]) return name() + " has the same pole on both sides";
+    if (std::string broken = broken_sample(poles, s); !broken.empty()) return broken;
   }
-  const auto unused = std::find(used.begin(), used.end(), false);
-  if (unused != used.end()) {
-    return pole_name(static_cast<std::size_t>(unused - used.begin())) + " is the pole of no sample";
+  const std::vector<std::uint8_t> pole = is_pole(poles);
+  for (std::size_t i = 0; i < poles.size(); ++i) {
+    if (pole[i] == 1) continue;
+    const std::string candidate = pole_name(i) + " is the pole of no sample, and ";
+    if (poles.unbounded[i] == 1) return candidate + "unbounded";
+    if (poles.labels[i] != unlabelled) return candidate + "labelled";
   }
   return {};
 }

@@ -19,18 +19,18 @@ enum class SimplexClass : std::uint8_t {
 
 struct SimplicialComplex {
   // The balls the complex was made of: ball i is { x : |x - centers[i]|^2 <= weights[i] }.
-  Array<Vec3> centers;   // n x 3, model units
+  Array<Vec3> centers;    // n x 3, model units
   Array<double> weights;  // n, squared model units, delta included
 
   // Simplices, each an ascending tuple of ball indices, each list in lexicographic order. The list is
   // closed: faces of a simplex are listed too.
-  Array<std::int32_t> vertices;                     // v
-  Array<std::array<std::int32_t, 2>> edges;         // e x 2
-  Array<std::array<std::int32_t, 3>> triangles;     // t x 3
-  Array<std::array<std::int32_t, 4>> tetrahedra;    // c x 4 (always interior)
-  Array<std::uint8_t> vertex_classes;    // v, SimplexClass
-  Array<std::uint8_t> edge_classes;      // e
-  Array<std::uint8_t> triangle_classes;  // t
+  Array<std::int32_t> vertices;                   // v
+  Array<std::array<std::int32_t, 2>> edges;       // e x 2
+  Array<std::array<std::int32_t, 3>> triangles;   // t x 3
+  Array<std::array<std::int32_t, 4>> tetrahedra;  // c x 4 (always interior)
+  Array<std::uint8_t> vertex_classes;             // v, SimplexClass
+  Array<std::uint8_t> edge_classes;               // e
+  Array<std::uint8_t> triangle_classes;           // t
 
   // Added to every squared radius before anything was decided; 0 for enlarged balls (see AlphaShape).
   double delta = 0;

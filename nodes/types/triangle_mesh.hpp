@@ -24,7 +24,8 @@ struct MeshTopology {
   bool closed = false;    // every edge belongs to exactly two triangles (false for no triangles)
   bool manifold = false;  // every edge has at most two triangles, every vertex star is one disk or half disk
   bool oriented = false;  // no two triangles run through a shared edge in the same direction
-  std::int64_t genus = -1;  // total over the components, boundary loops filled; -1 when not manifold or not oriented
+  std::int64_t genus =
+      -1;  // total over the components, boundary loops filled; -1 when not manifold or not oriented
   std::int64_t components = 0;      // connected components of the triangles (by shared vertices)
   std::int64_t boundary_loops = 0;  // closed chains of edges with one triangle
   std::int64_t boundary_edges = 0;

@@ -13,7 +13,7 @@ namespace ballflow::geometry {
 struct Vec3 {
   double x = 0, y = 0, z = 0;
 
-  using scalar = double;                       // how an array of Vec3 is stored: n x 3 doubles
+  using scalar = double;  // how an array of Vec3 is stored: n x 3 doubles
   static constexpr std::size_t dimension = 3;
 
   friend bool operator==(const Vec3&, const Vec3&) = default;

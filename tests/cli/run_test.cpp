@@ -1,11 +1,10 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <thread>
-
-#include <unistd.h>
 
 #include "process.hpp"
 #include "test_data.hpp"
@@ -57,16 +56,22 @@ struct CliTest : testing::Test {
 const std::string small = "input=shape:torus?n=3000";
 
 TEST_F(CliTest, a_second_run_executes_nothing_and_rewrites_nothing) {
-  ASSERT_EQ(run({"--set", small, "--out", folder.file("out"), "--report", folder.file("report.json")}).exit_code, 0);
+  ASSERT_EQ(
+      run({"--set", small, "--out", folder.file("out"), "--report", folder.file("report.json")}).exit_code,
+      0);
   const json first = report();
   const auto time = fs::last_write_time(folder.file("out/balls.ply"));
-  ASSERT_EQ(run({"--set", small, "--out", folder.file("out"), "--report", folder.file("report.json")}).exit_code, 0);
+  ASSERT_EQ(
+      run({"--set", small, "--out", folder.file("out"), "--report", folder.file("report.json")}).exit_code,
+      0);
   for (const auto& [path, status] : statuses(report())) EXPECT_EQ(status, "hit") << path;
   EXPECT_EQ(digests(report()), digests(first));
   EXPECT_EQ(fs::last_write_time(folder.file("out/balls.ply")), time);
   // Nothing was read either: the run does not need the artifacts.
   fs::remove_all(folder.file("cache/cas"));
-  ASSERT_EQ(run({"--set", small, "--out", folder.file("out"), "--report", folder.file("report.json")}).exit_code, 0);
+  ASSERT_EQ(
+      run({"--set", small, "--out", folder.file("out"), "--report", folder.file("report.json")}).exit_code,
+      0);
   for (const auto& [path, status] : statuses(report())) EXPECT_EQ(status, "hit") << path;
 }
 
@@ -80,7 +85,8 @@ TEST_F(CliTest, a_changed_output_file_is_written_again) {
 
 TEST_F(CliTest, another_epsilon_reruns_enlarge_and_what_follows_and_nothing_before) {
   ASSERT_EQ(run({"--set", small, "--set", "epsilon=0.3"}).exit_code, 0);
-  ASSERT_EQ(run({"--set", small, "--set", "epsilon=0.6", "--report", folder.file("report.json")}).exit_code, 0);
+  ASSERT_EQ(run({"--set", small, "--set", "epsilon=0.6", "--report", folder.file("report.json")}).exit_code,
+            0);
   const auto status = statuses(report());
   EXPECT_EQ(status.at("dmt/sample"), "hit");
   EXPECT_EQ(status.at("dmt/poles"), "hit");
@@ -88,13 +94,17 @@ TEST_F(CliTest, another_epsilon_reruns_enlarge_and_what_follows_and_nothing_befo
   EXPECT_EQ(status.at("enlarge"), "run");
   EXPECT_EQ(status.at("matrix"), "run");
   EXPECT_EQ(status.at("select"), "run");
-  EXPECT_NE(report().at("nodes").at("enlarge").at("reason").get<std::string>().find("params.epsilon 0.3 -> 0.6"),
-            std::string::npos);
+  EXPECT_NE(
+      report().at("nodes").at("enlarge").at("reason").get<std::string>().find("params.epsilon 0.3 -> 0.6"),
+      std::string::npos);
 }
 
 TEST_F(CliTest, swapping_the_strategy_reruns_only_the_pruning_and_what_follows) {
   ASSERT_EQ(run({"--set", small}).exit_code, 0);
-  ASSERT_EQ(run({"--set", small, "--set", "strategy=reduce_exact_greedy", "--report", folder.file("report.json")}).exit_code, 0);
+  ASSERT_EQ(
+      run({"--set", small, "--set", "strategy=reduce_exact_greedy", "--report", folder.file("report.json")})
+          .exit_code,
+      0);
   const auto status = statuses(report());
   EXPECT_EQ(status.at("enlarge"), "hit");
   EXPECT_EQ(status.at("matrix"), "hit");
@@ -112,9 +122,13 @@ TEST_F(CliTest, plan_and_check_say_what_a_run_would_do) {
 }
 
 TEST_F(CliTest, any_number_of_threads_gives_the_same_digests) {
-  ASSERT_EQ(run({"--set", small, "--threads", "1", "--no-cache", "--report", folder.file("report.json")}).exit_code, 0);
+  ASSERT_EQ(
+      run({"--set", small, "--threads", "1", "--no-cache", "--report", folder.file("report.json")}).exit_code,
+      0);
   const auto one = digests(report());
-  ASSERT_EQ(run({"--set", small, "--threads", "2", "--no-cache", "--report", folder.file("report.json")}).exit_code, 0);
+  ASSERT_EQ(
+      run({"--set", small, "--threads", "2", "--no-cache", "--report", folder.file("report.json")}).exit_code,
+      0);
   EXPECT_EQ(digests(report()), one);
 }
 
@@ -175,10 +189,12 @@ TEST_F(CliTest, bad_files_are_refused_with_the_reason) {
 
 TEST_F(CliTest, broken_models_run_with_a_warning_or_are_refused_by_name) {
   bool any = false;
-  for (const std::string name : {"broken_truncated", "broken_bad_index", "broken_nan", "broken_cow", "broken_octagonal_pocket",
-                                 "broken_not_convex", "broken_soup", "broken_soup_flipped_dup"}) {
+  for (const std::string name :
+       {"broken_truncated", "broken_bad_index", "broken_nan", "broken_cow", "broken_octagonal_pocket",
+        "broken_not_convex", "broken_soup", "broken_soup_flipped_dup"}) {
     std::string file;
-    for (const char* extension : {".off.gz", ".obj.gz", ".ply.gz", ".stl.gz", ".off", ".obj", ".ply", ".stl"}) {
+    for (const char* extension :
+         {".off.gz", ".obj.gz", ".ply.gz", ".stl.gz", ".off", ".obj", ".ply", ".stl"}) {
       if (file.empty()) file = test::data_file("models/" + name + extension);
     }
     if (file.empty()) continue;
@@ -188,8 +204,10 @@ TEST_F(CliTest, broken_models_run_with_a_warning_or_are_refused_by_name) {
     if (unreadable) {
       EXPECT_EQ(result.exit_code, 3) << name << result.err;
     } else {
-      EXPECT_TRUE(result.exit_code == 0 || result.exit_code == 3) << name << " " << result.exit_code << result.err;
-      EXPECT_NE(result.err.find(result.exit_code == 0 ? "warning" : "what to do"), std::string::npos) << name << result.err;
+      EXPECT_TRUE(result.exit_code == 0 || result.exit_code == 3)
+          << name << " " << result.exit_code << result.err;
+      EXPECT_NE(result.err.find(result.exit_code == 0 ? "warning" : "what to do"), std::string::npos)
+          << name << result.err;
     }
   }
   if (!any) GTEST_SKIP() << "the folder of test models is absent";
@@ -199,23 +217,29 @@ TEST_F(CliTest, bad_graphs_exit_2_with_place_and_reason) {
   const auto expect = [&](const std::string& text, const std::string& expected) {
     const ProcessResult result = run_graph(text);
     EXPECT_EQ(result.exit_code, 2) << text.substr(0, 80);
-    EXPECT_NE(result.err.find(expected), std::string::npos) << expected << " is not in: " << result.err.substr(0, 500);
+    EXPECT_NE(result.err.find(expected), std::string::npos)
+        << expected << " is not in: " << result.err.substr(0, 500);
     EXPECT_NE(result.err.find("graph.json:"), std::string::npos) << result.err.substr(0, 500);
     EXPECT_LT(result.seconds, 5);
   };
   const std::string outputs = R"(, "outputs": {"o": "s.points"}})";
   expect("{", "graph.json:1:");
   expect(R"({"nodes": {"s": {"type": "Sampel", "params": {"file": "shape:box"}}})" + outputs, "Sample");
-  expect(R"({"nodes": {"s": {"type": "Sample", "params": {"file": "shape:box", "file": "x"}}})" + outputs, "file");
-  expect(R"({"nodes": {"s": {"type": "Sample", "params": {"file": "shape:box"}}, "v": {"type": "VoronoiPoles", "inputs": {"point": "s.points"}}}, "outputs": {"o": "v.poles"}})",
-         "points");
-  expect(R"({"nodes": {"s": {"type": "Sample", "params": {"file": "shape:box"}}, "v": {"type": "VoronoiPoles", "inputs": {"points": "s.mesh"}}}, "outputs": {"o": "v.poles"}})",
-         "TriangleMesh");
+  expect(R"({"nodes": {"s": {"type": "Sample", "params": {"file": "shape:box", "file": "x"}}})" + outputs,
+         "file");
+  expect(
+      R"({"nodes": {"s": {"type": "Sample", "params": {"file": "shape:box"}}, "v": {"type": "VoronoiPoles", "inputs": {"point": "s.points"}}}, "outputs": {"o": "v.poles"}})",
+      "points");
+  expect(
+      R"({"nodes": {"s": {"type": "Sample", "params": {"file": "shape:box"}}, "v": {"type": "VoronoiPoles", "inputs": {"points": "s.mesh"}}}, "outputs": {"o": "v.poles"}})",
+      "TriangleMesh");
   expect(R"({"nodes": {"v": {"type": "VoronoiPoles"}}, "outputs": {"o": "v.poles"}})", "points");
-  expect(R"({"nodes": {"a": {"type": "Reduce", "inputs": {"cover": "b.cover"}}, "b": {"type": "Reduce", "inputs": {"cover": "a.cover"}}}, "outputs": {"o": "a.cover"}})",
-         "cycle");
-  expect(R"({"nodes": {"s": {"type": "Sample", "params": {"file": "shape:box"}}, "e": {"type": "Enlarge", "inputs": {"balls": "s.points", "points": "s.points"}, "params": {"epsilon": -1}}}, "outputs": {"o": "e.balls"}})",
-         "-1");
+  expect(
+      R"({"nodes": {"a": {"type": "Reduce", "inputs": {"cover": "b.cover"}}, "b": {"type": "Reduce", "inputs": {"cover": "a.cover"}}}, "outputs": {"o": "a.cover"}})",
+      "cycle");
+  expect(
+      R"({"nodes": {"s": {"type": "Sample", "params": {"file": "shape:box"}}, "e": {"type": "Enlarge", "inputs": {"balls": "s.points", "points": "s.points"}, "params": {"epsilon": -1}}}, "outputs": {"o": "e.balls"}})",
+      "-1");
   expect(std::string(10 << 20, '['), "nest");
   expect(std::string(200000, '[') + std::string(200000, ']'), "nest");
 }

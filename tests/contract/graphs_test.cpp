@@ -44,7 +44,8 @@ std::vector<RunResult> run_with_threads(const Dag& dag, const std::vector<unsign
 void expect_equal_digests(const Dag& dag, const std::vector<RunResult>& results) {
   for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
     for (const RunResult& result : results) {
-      ASSERT_EQ(result.nodes[i].status, results[0].nodes[i].status) << dag.nodes[i].path << ": " << result.nodes[i].cause;
+      ASSERT_EQ(result.nodes[i].status, results[0].nodes[i].status)
+          << dag.nodes[i].path << ": " << result.nodes[i].cause;
       for (std::size_t port = 0; port < result.nodes[i].outputs.size(); ++port) {
         EXPECT_EQ(result.nodes[i].outputs[port].digest, results[0].nodes[i].outputs[port].digest)
             << dag.nodes[i].path << "." << result.nodes[i].outputs[port].port;

@@ -34,10 +34,12 @@ Json another_value(const ParamDecl& param) {
       candidates = {!param.default_value.get<bool>()};
       break;
     case ParamKind::integer:
-      for (const int step : {1, -1, 2, 10}) candidates.push_back(param.default_value.get<std::int64_t>() + step);
+      for (const int step : {1, -1, 2, 10})
+        candidates.push_back(param.default_value.get<std::int64_t>() + step);
       break;
     case ParamKind::number:
-      for (const double step : {0.125, -0.125, 1.0, 0.001}) candidates.push_back(param.default_value.get<double>() + step);
+      for (const double step : {0.125, -0.125, 1.0, 0.001})
+        candidates.push_back(param.default_value.get<double>() + step);
       break;
     case ParamKind::choice:
       for (const auto& [value, doc] : param.choices) candidates.push_back(value);
@@ -79,11 +81,12 @@ std::vector<std::string> node_ids() {
 }
 
 TEST(Registry, loads_the_nodes_of_the_thesis) {
-  const std::set<std::string> expected = {"Sample",      "Shape",  "VoronoiPoles", "LabelPoles",  "Enlarge",
-                                          "CoverMatrix", "Reduce", "IPSolve",      "Greedy",      "SelectBalls",
-                                          "VerifyCover", "AlphaShape", "MedialAxis"};
+  const std::set<std::string> expected = {
+      "Sample",  "Shape",  "VoronoiPoles", "LabelPoles",  "Enlarge",    "CoverMatrix", "Reduce",
+      "IPSolve", "Greedy", "SelectBalls",  "VerifyCover", "AlphaShape", "MedialAxis"};
   for (const std::string& id : expected) EXPECT_NE(registry().node(id), nullptr) << id;
-  for (const PluginCandidate& candidate : registry().candidates()) EXPECT_EQ(candidate.refused, "") << candidate.path;
+  for (const PluginCandidate& candidate : registry().candidates())
+    EXPECT_EQ(candidate.refused, "") << candidate.path;
 }
 
 TEST_P(EveryNode, is_documented) {
@@ -104,7 +107,9 @@ TEST_P(EveryNode, documents_every_parameter_with_unit_and_range) {
           << param.name << " has no range";
     }
     for (const auto& [value, doc] : param.choices) EXPECT_FALSE(doc.empty()) << param.name << " " << value;
-    if (!param.required) EXPECT_EQ(param.refuse(param.default_value), "") << param.name;
+    if (!param.required) {
+      EXPECT_EQ(param.refuse(param.default_value), "") << param.name;
+    }
   }
 }
 
@@ -142,15 +147,22 @@ TEST_P(EveryNode, has_a_key_that_every_hashed_parameter_changes) {
     DagNode changed = node_with_defaults;
     changed.params[param.name] = another_value(param);
     if (changed.params[param.name].is_null()) continue;
-    EXPECT_NE(action_key(changed, {}, 0, *store).key, action_key(node_with_defaults, {}, 0, *store).key) << param.name;
+    EXPECT_NE(action_key(changed, {}, 0, *store).key, action_key(node_with_defaults, {}, 0, *store).key)
+        << param.name;
   }
 }
 
 TEST_P(EveryNode, refuses_parameters_outside_their_range) {
   for (const ParamDecl& param : node().params) {
-    if (param.minimum) EXPECT_NE(param.refuse(*param.minimum - 1), "") << param.name;
-    if (param.exclusive_minimum) EXPECT_NE(param.refuse(*param.exclusive_minimum), "") << param.name;
-    if (param.maximum) EXPECT_NE(param.refuse(*param.maximum + 1), "") << param.name;
+    if (param.minimum) {
+      EXPECT_NE(param.refuse(*param.minimum - 1), "") << param.name;
+    }
+    if (param.exclusive_minimum) {
+      EXPECT_NE(param.refuse(*param.exclusive_minimum), "") << param.name;
+    }
+    if (param.maximum) {
+      EXPECT_NE(param.refuse(*param.maximum + 1), "") << param.name;
+    }
     EXPECT_NE(param.refuse(Json::array()), "") << param.name;
     EXPECT_NE(param.refuse(nullptr), "") << param.name;
   }

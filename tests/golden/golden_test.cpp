@@ -38,7 +38,10 @@ const std::vector<Case>& cases() {
       {"double_torus", "medial_axis", {{"input", "shape:doubleTorus?n=8000"}}, -1},
       {"3cross", "medial_axis", {{"input", "shape:3cross?n=8000"}}, 1},
       {"knot", "medial_axis", {{"input", "shape:knot?n=8000"}}, 0},
-      {"torus_exact", "medial_axis", {{"input", "shape:torus?n=6000"}, {"strategy", "reduce_exact_greedy"}}, 0},
+      {"torus_exact",
+       "medial_axis",
+       {{"input", "shape:torus?n=6000"}, {"strategy", "reduce_exact_greedy"}},
+       0},
       {"box_dmt", "dmt", {{"input", "shape:box?n=2000"}}, kNoTopology},
   };
   return all;
@@ -59,7 +62,8 @@ class Golden : public testing::TestWithParam<Case> {};
 
 TEST_P(Golden, has_the_topology_of_the_model_and_the_figures_of_before) {
   const Case& c = GetParam();
-  const Dag dag = load_graph(test::source_file("graphs/" + std::string(c.graph) + ".json"), registry(), c.overrides);
+  const Dag dag =
+      load_graph(test::source_file("graphs/" + std::string(c.graph) + ".json"), registry(), c.overrides);
   Silent silent;
   Runner runner(dag, registry(), Store::open({}), {}, silent);
   const RunResult& result = runner.run();

@@ -14,8 +14,9 @@
 
 namespace ballflow::test {
 
-ProcessResult run_process(const std::vector<std::string>& command, const std::map<std::string, std::string>& environment,
-                          double stop_after, int signal) {
+ProcessResult run_process(const std::vector<std::string>& command,
+                          const std::map<std::string, std::string>& environment, double stop_after,
+                          int signal) {
   const TempFolder folder;
   const std::string out = folder.file("out"), err = folder.file("err");
   const auto start = std::chrono::steady_clock::now();

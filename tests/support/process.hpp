@@ -15,7 +15,8 @@ struct ProcessResult {
 
 /// Runs a program with arguments; `environment` is added to this process's. `stop_after` > 0: sends `signal`
 /// after so many seconds.
-ProcessResult run_process(const std::vector<std::string>& command, const std::map<std::string, std::string>& environment = {},
-                          double stop_after = 0, int signal = 9);
+ProcessResult run_process(const std::vector<std::string>& command,
+                          const std::map<std::string, std::string>& environment = {}, double stop_after = 0,
+                          int signal = 9);
 
 }  // namespace ballflow::test

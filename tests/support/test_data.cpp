@@ -12,14 +12,19 @@ namespace fs = std::filesystem;
 
 std::string data_file(const std::string& relative) {
   const char* folder = std::getenv("BALLFLOW_TEST_DATA");
-  const fs::path root = folder != nullptr ? fs::path(folder) : fs::path(BALLFLOW_SOURCE_DIR) / "../shared/data";
+  const fs::path root =
+      folder != nullptr ? fs::path(folder) : fs::path(BALLFLOW_SOURCE_DIR) / "../shared/data";
   const fs::path path = root / relative;
   std::error_code ignored;
   return fs::exists(path, ignored) ? fs::weakly_canonical(path).string() : std::string();
 }
 
-std::string source_file(const std::string& relative) { return (fs::path(BALLFLOW_SOURCE_DIR) / relative).string(); }
-std::string binary_file(const std::string& relative) { return (fs::path(BALLFLOW_BINARY_DIR) / relative).string(); }
+std::string source_file(const std::string& relative) {
+  return (fs::path(BALLFLOW_SOURCE_DIR) / relative).string();
+}
+std::string binary_file(const std::string& relative) {
+  return (fs::path(BALLFLOW_BINARY_DIR) / relative).string();
+}
 
 TempFolder::TempFolder() {
   std::string pattern = (fs::temp_directory_path() / "ballflow-test-XXXXXX").string();

@@ -13,7 +13,9 @@ int show_statistics(const Common& common) {
     return 0;
   }
   const Store::Statistics s = store->statistics();
-  const auto megabytes = [](std::uint64_t bytes) { return grouped(static_cast<std::int64_t>(bytes >> 20)) + " MB"; };
+  const auto megabytes = [](std::uint64_t bytes) {
+    return grouped(static_cast<std::int64_t>(bytes >> 20)) + " MB";
+  };
   const auto count = [](std::uint64_t n) { return grouped(static_cast<std::int64_t>(n)); };
   std::vector<std::vector<std::string>> rows = {
       {"folder", store->root()},
@@ -38,14 +40,16 @@ void add_cache(CLI::App& app, Common& common, Action& action) {
 }
 
 void add_version(CLI::App& app, Common& common, Action& action) {
-  CLI::App* command = app.add_subcommand("version", "print the version, the plugin ABI and the node libraries");
+  CLI::App* command =
+      app.add_subcommand("version", "print the version, the plugin ABI and the node libraries");
   command->callback([&common, &action] {
     action = [&common] {
       std::printf("ballflow %s, plugin ABI %u\n", BALLFLOW_VERSION, BALLFLOW_ABI_VERSION);
       const auto registry = common.registry();
       for (const PluginCandidate& candidate : registry->candidates()) {
         if (candidate.refused.empty()) {
-          std::printf("  %s %s  %s\n", candidate.name.c_str(), candidate.version.c_str(), candidate.path.c_str());
+          std::printf("  %s %s  %s\n", candidate.name.c_str(), candidate.version.c_str(),
+                      candidate.path.c_str());
         } else {
           std::printf("  not loaded: %s: %s\n", candidate.path.c_str(), candidate.refused.c_str());
         }

@@ -14,8 +14,9 @@ std::shared_ptr<Store> Common::store() const {
 void GraphArguments::add_to(CLI::App& command) {
   command.add_option("graph", file, "graph file")->required()->type_name("GRAPH.json");
   command
-      .add_option("--set", sets,
-                  "set a parameter of the graph (epsilon=0.5) or of one node (prune/greedy.mode=until_covered)")
+      .add_option(
+          "--set", sets,
+          "set a parameter of the graph (epsilon=0.5) or of one node (prune/greedy.mode=until_covered)")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
 }
@@ -50,7 +51,8 @@ void print_table(const std::vector<std::vector<std::string>>& rows) {
 }
 
 std::string plain(const Json& value) {
-  return value.is_string() ? value.get<std::string>() : value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return value.is_string() ? value.get<std::string>()
+                           : value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace ballflow::cli

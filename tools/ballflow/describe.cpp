@@ -41,10 +41,11 @@ std::string mesh(const Json& s) {
 }
 
 std::string complex(const Json& s) {
-  std::string text = number(s, "tetrahedra") + " tetrahedra, " + number(s, "triangles") + " triangles, Euler characteristic " +
-                     number(s, "euler_characteristic");
+  std::string text = number(s, "tetrahedra") + " tetrahedra, " + number(s, "triangles") +
+                     " triangles, Euler characteristic " + number(s, "euler_characteristic");
   if (s.contains("betti") && s.at("betti").is_array() && s.at("betti").size() == 3) {
-    text += ", Betti " + s.at("betti")[0].dump() + " " + s.at("betti")[1].dump() + " " + s.at("betti")[2].dump();
+    text +=
+        ", Betti " + s.at("betti")[0].dump() + " " + s.at("betti")[1].dump() + " " + s.at("betti")[2].dump();
   }
   return text;
 }
@@ -88,7 +89,9 @@ std::string describe(const OutputEntry& output) {
        }},
       {"CoverState", cover},
       {"CoverCheck",
-       [](const Json& s) { return number(s, "covered") + " of " + number(s, "samples") + " samples covered"; }},
+       [](const Json& s) {
+         return number(s, "covered") + " of " + number(s, "samples") + " samples covered";
+       }},
       {"SimplicialComplex", complex},
       {"MedialAxis", axis},
   };

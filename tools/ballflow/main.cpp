@@ -16,7 +16,8 @@ int main(int argc, char** argv) {
       "Exit codes: 0 ok, 2 wrong usage or graph, 3 a node failed, 4 cancelled, 5 store or files, 6 plugin.\n"
       "The cache is $BALLFLOW_CACHE, else ~/.cache/ballflow; it may be deleted at any time.");
   cli::Common common;
-  app.add_option("--plugin", common.plugins, "a node library, or a folder of them, to load besides the built-in ones")
+  app.add_option("--plugin", common.plugins,
+                 "a node library, or a folder of them, to load besides the built-in ones")
       ->type_name("PATH");
   cli::Action action;
   cli::add_run(app, common, action);
@@ -45,7 +46,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "ballflow: error: out of memory\n");
     return static_cast<int>(ExitCode::node_failed);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "ballflow: error: %s\n  this is a bug of ballflow; please report it\n", error.what());
+    std::fprintf(stderr, "ballflow: error: %s\n  this is a bug of ballflow; please report it\n",
+                 error.what());
     return static_cast<int>(ExitCode::node_failed);
   }
 }

@@ -32,8 +32,8 @@ void describe(const Registry& registry, const NodeDeclaration& node) {
     if (list.empty()) return;
     std::printf("\n%s\n", title);
     for (const PortDecl& port : list) {
-      std::printf("  %s: %s%s\n      %s\n", port.name.c_str(), port.type.c_str(), port.optional ? ", optional" : "",
-                  port.doc.c_str());
+      std::printf("  %s: %s%s\n      %s\n", port.name.c_str(), port.type.c_str(),
+                  port.optional ? ", optional" : "", port.doc.c_str());
       const TypeDeclaration* type = registry.type(port.type);
       if (type == nullptr) continue;
       std::string fields;
@@ -45,14 +45,16 @@ void describe(const Registry& registry, const NodeDeclaration& node) {
   ports("Outputs", node.outputs);
   if (!node.params.empty()) std::printf("\nParameters\n");
   for (const ParamDecl& param : node.params) {
-    std::printf("  %s = %s", param.name.c_str(), param.required ? "(required)" : plain(param.default_value).c_str());
+    std::printf("  %s = %s", param.name.c_str(),
+                param.required ? "(required)" : plain(param.default_value).c_str());
     if (!param.unit.empty()) std::printf("  [%s]", param.unit.c_str());
     if (const std::string bounds = range(param); !bounds.empty()) std::printf("  %s", bounds.c_str());
     std::printf("\n      %s\n", param.doc.c_str());
     for (const auto& [value, doc] : param.choices) std::printf("      %s: %s\n", value.c_str(), doc.c_str());
   }
   if (!node.cites.empty()) std::printf("\nSources\n");
-  for (const Citation& citation : node.cites) std::printf("  %s, %s\n", citation.key.c_str(), citation.where.c_str());
+  for (const Citation& citation : node.cites)
+    std::printf("  %s, %s\n", citation.key.c_str(), citation.where.c_str());
   std::printf("\nFrom %s\n", node.plugin_path.c_str());
 }
 
@@ -92,13 +94,16 @@ int show_nodes(const Common& common, const NodesArguments& arguments) {
 void add_nodes(CLI::App& app, Common& common, Action& action) {
   CLI::App* command = app.add_subcommand("nodes", "list the node types, or describe one");
   const auto arguments = std::make_shared<NodesArguments>();
-  command->add_option("type", arguments->describe, "describe this node type: ports, parameters, units, ranges, sources")
+  command
+      ->add_option("type", arguments->describe,
+                   "describe this node type: ports, parameters, units, ranges, sources")
       ->type_name("TYPE");
   command->add_flag("--schema", arguments->schema, "print the JSON schema of all node types");
   command->add_flag("--graph-schema", arguments->graph_schema, "print the JSON schema of graph files");
   command->add_flag("--markdown", arguments->markdown, "print the documentation of all node types");
-  command->callback(
-      [&common, &action, arguments] { action = [&common, arguments] { return show_nodes(common, *arguments); }; });
+  command->callback([&common, &action, arguments] {
+    action = [&common, arguments] { return show_nodes(common, *arguments); };
+  });
 }
 
 }  // namespace ballflow::cli

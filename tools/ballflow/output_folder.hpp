@@ -14,7 +14,7 @@ namespace ballflow::cli {
 struct WrittenFile {
   std::string output;  // name of the graph's output
   std::string path;
-  std::string what;    // in words
+  std::string what;      // in words
   bool written = false;  // false: it was there already
 };
 

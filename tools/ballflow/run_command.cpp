@@ -54,7 +54,8 @@ std::string quoted(const std::string& text) {
 void print_failure(const RunArguments& arguments, const Dag& dag, const RunResult& result, std::size_t i) {
   const DagNode& node = dag.nodes[i];
   const NodeResult& failed = result.nodes[i];
-  std::fprintf(stderr, "\nnode %s (%s) failed: %s\n", node.path.c_str(), node.decl->id.c_str(), failed.cause.c_str());
+  std::fprintf(stderr, "\nnode %s (%s) failed: %s\n", node.path.c_str(), node.decl->id.c_str(),
+               failed.cause.c_str());
   if (!failed.hint.empty()) std::fprintf(stderr, "  what to do: %s\n", failed.hint.c_str());
   for (const auto& [name, value] : node.params) {
     std::fprintf(stderr, "  param %s = %s\n", name.c_str(), plain(value).c_str());
@@ -78,19 +79,34 @@ void print_result(const Dag& dag, const RunResult& result) {
     const NodeResult& node = result.nodes[i];
     std::string status, seconds;
     switch (node.status) {
-      case NodeStatus::hit: status = "HIT"; ++hits; break;
-      case NodeStatus::run: status = "RUN"; seconds = duration(node.seconds); ++runs; break;
-      case NodeStatus::failed: status = "FAILED"; seconds = duration(node.seconds); break;
-      case NodeStatus::cancelled: status = "CANCELLED"; break;
-      default: status = "-"; break;
+      case NodeStatus::hit:
+        status = "HIT";
+        ++hits;
+        break;
+      case NodeStatus::run:
+        status = "RUN";
+        seconds = duration(node.seconds);
+        ++runs;
+        break;
+      case NodeStatus::failed:
+        status = "FAILED";
+        seconds = duration(node.seconds);
+        break;
+      case NodeStatus::cancelled:
+        status = "CANCELLED";
+        break;
+      default:
+        status = "-";
+        break;
     }
     const bool good = node.status == NodeStatus::hit || node.status == NodeStatus::run;
     rows.push_back({dag.nodes[i].path, status, seconds, good ? describe(node.outputs) : node.reason});
   }
   std::printf("\n");
   print_table(rows);
-  std::printf("\n%zu run, %zu from the cache, %s (%s CPU), %s MB at most\n", runs, hits, duration(result.seconds).c_str(),
-              duration(result.cpu_seconds).c_str(), grouped(static_cast<std::int64_t>(result.peak_rss_bytes >> 20)).c_str());
+  std::printf("\n%zu run, %zu from the cache, %s (%s CPU), %s MB at most\n", runs, hits,
+              duration(result.seconds).c_str(), duration(result.cpu_seconds).c_str(),
+              grouped(static_cast<std::int64_t>(result.peak_rss_bytes >> 20)).c_str());
 }
 
 int run(const Common& common, const RunArguments& arguments) {
@@ -111,7 +127,8 @@ int run(const Common& common, const RunArguments& arguments) {
     for (const DagOutput& known : dag.outputs) names.push_back(known.name);
     if (std::find(names.begin(), names.end(), output) != names.end()) continue;
     const std::string near = nearest(output, names);
-    throw Error(ExitCode::usage, "--format " + output + "=" + format + ": the graph has no output \"" + output + "\"",
+    throw Error(ExitCode::usage,
+                "--format " + output + "=" + format + ": the graph has no output \"" + output + "\"",
                 near.empty() ? "" : "did you mean \"" + near + "\"?");
   }
   const auto store = common.store();
@@ -125,8 +142,7 @@ int run(const Common& common, const RunArguments& arguments) {
   options.threads = arguments.threads;
   options.seed = arguments.seed;
   options.cancel = &cancel_requested;
-  const auto display =
-      arguments.quiet ? no_display() : progress_display(dag, isatty(STDERR_FILENO) != 0);
+  const auto display = arguments.quiet ? no_display() : progress_display(dag, isatty(STDERR_FILENO) != 0);
   Runner runner(dag, *registry, store, options, *display, load_manifests(*store, arguments.graph.file));
   const RunResult& result = runner.run();
 
@@ -140,7 +156,8 @@ int run(const Common& common, const RunArguments& arguments) {
   }
   const Json report = run_report(run_id(), dag, result);
   save_latest(*store, arguments.graph.file, result, dag, report);
-  if (!arguments.report.empty()) write_atomically(arguments.report, report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  if (!arguments.report.empty())
+    write_atomically(arguments.report, report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 
   if (!arguments.quiet) {
     print_result(dag, result);
@@ -153,7 +170,8 @@ int run(const Common& common, const RunArguments& arguments) {
     if (result.nodes[i].status == NodeStatus::failed) print_failure(arguments, dag, result, i);
   }
   if (result.status == ExitCode::cancelled) {
-    std::fprintf(stderr, "cancelled; what was finished is in the cache, the same command goes on from there\n");
+    std::fprintf(stderr,
+                 "cancelled; what was finished is in the cache, the same command goes on from there\n");
   }
   return static_cast<int>(result.status);
 }
@@ -164,20 +182,25 @@ void add_run(CLI::App& app, Common& common, Action& action) {
   CLI::App* command = app.add_subcommand("run", "run a graph; what is in the cache is not computed again");
   const auto arguments = std::make_shared<RunArguments>();
   arguments->graph.add_to(*command);
-  command->add_option("--out", arguments->out, "folder that receives the outputs of the graph")->type_name("DIR");
+  command->add_option("--out", arguments->out, "folder that receives the outputs of the graph")
+      ->type_name("DIR");
   command
       ->add_option("--format", arguments->formats,
                    "format of an output file, e.g. balls=csv; see \"ballflow export --help\" for the formats")
       ->type_name("OUTPUT=FORMAT")
       ->allow_extra_args(false);
-  command->add_option("--report", arguments->report, "file that receives the report of the run (JSON)")->type_name("FILE");
+  command->add_option("--report", arguments->report, "file that receives the report of the run (JSON)")
+      ->type_name("FILE");
   command->add_option("--cache", common.cache, "cache folder")->type_name("DIR");
   command->add_flag("--no-cache", common.no_cache, "neither read nor write a cache");
-  command->add_option("--threads", arguments->threads, "number of threads; 0: all cores (the result never depends on it)")
+  command
+      ->add_option("--threads", arguments->threads,
+                   "number of threads; 0: all cores (the result never depends on it)")
       ->check(CLI::Range(0u, 4096u));
   command->add_option("--seed", arguments->seed, "seed of the nodes that use random numbers");
   command->add_flag("--quiet", arguments->quiet, "print errors only");
-  command->callback([&common, &action, arguments] { action = [&common, arguments] { return run(common, *arguments); }; });
+  command->callback(
+      [&common, &action, arguments] { action = [&common, arguments] { return run(common, *arguments); }; });
 }
 
 }  // namespace ballflow::cli

@@ -61,7 +61,8 @@ class Display final : public EventSink {
         say(path + ": " + (event.warning ? "warning: " : "") + event.text);
         break;
       case Event::Kind::node_finished:
-        if (running_.erase(event.node) != 0 && event.result != nullptr && event.result->status == NodeStatus::run) {
+        if (running_.erase(event.node) != 0 && event.result != nullptr &&
+            event.result->status == NodeStatus::run) {
           say(path + ": " + describe(event.result->outputs) + " (" + duration(event.result->seconds) + ")");
         }
         break;
@@ -100,7 +101,8 @@ class Display final : public EventSink {
     while (!wake_.wait_for(lock, std::chrono::milliseconds(100), [this] { return over_; })) {
       erase_block();
       winsize size{};
-      const std::size_t width = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 20 ? size.ws_col : 80u;
+      const std::size_t width =
+          ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 20 ? size.ws_col : 80u;
       for (const auto& [node, running] : running_) {
         if (since(running.start) < 0.3) continue;  // quick nodes would only flicker
         constexpr std::size_t bar_width = 24;
@@ -134,7 +136,9 @@ class Nothing final : public EventSink {
 
 }  // namespace
 
-std::unique_ptr<EventSink> progress_display(const Dag& dag, bool live) { return std::make_unique<Display>(dag, live); }
+std::unique_ptr<EventSink> progress_display(const Dag& dag, bool live) {
+  return std::make_unique<Display>(dag, live);
+}
 std::unique_ptr<EventSink> no_display() { return std::make_unique<Nothing>(); }
 
 }  // namespace ballflow::cli

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "ballflow/run.hpp"
 #include "ballflow/graph.hpp"
+#include "ballflow/run.hpp"
 
 namespace ballflow::cli {
 

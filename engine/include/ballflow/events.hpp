@@ -19,10 +19,10 @@ struct NodeResult;
 struct Event {
   enum class Kind { run_started, node_started, node_progress, node_message, node_finished, run_finished };
   Kind kind;
-  std::size_t node = 0;   // index into Dag::nodes
-  double fraction = 0;    // node_progress
-  bool warning = false;   // node_message
-  std::string text;       // node_message
+  std::size_t node = 0;                // index into Dag::nodes
+  double fraction = 0;                 // node_progress
+  bool warning = false;                // node_message
+  std::string text;                    // node_message
   const NodeResult* result = nullptr;  // node_finished; valid during the call
 };
 

@@ -80,7 +80,8 @@ struct Override {
 /// GraphError with ALL findings. Relative paths of file parameters written in a graph file are relative to
 /// the current directory when they come from an override or a default, as on every command line.
 /// Limits: 64 MB of text, nesting depth 100, 1 000 000 nodes, subgraphs 50 deep.
-Dag load_graph(const std::string& file, const Registry& registry, const std::vector<Override>& overrides = {});
+Dag load_graph(const std::string& file, const Registry& registry,
+               const std::vector<Override>& overrides = {});
 
 /// The same from text; `file` is the name used in messages and the base of relative subgraph paths.
 Dag parse_graph(const std::string& text, const std::string& file, const Registry& registry,

@@ -24,7 +24,7 @@ struct ActionKey {
 
 /// The key of `node` when its inputs have the given entries (by port). Reads the digests of file parameters
 /// through `store`; throws Error when such a file cannot be read.
-ActionKey action_key(const DagNode& node, const std::map<std::string, OutputEntry>& inputs, std::uint64_t seed,
-                     Store& store);
+ActionKey action_key(const DagNode& node, const std::map<std::string, OutputEntry>& inputs,
+                     std::uint64_t seed, Store& store);
 
 }  // namespace ballflow

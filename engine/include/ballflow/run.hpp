@@ -26,7 +26,7 @@ struct RunOptions {
 
 struct NodeResult {
   NodeStatus status = NodeStatus::pending;
-  std::string reason;  // why it ran, or why it was a hit
+  std::string reason;                   // why it ran, or why it was a hit
   double seconds = 0, cpu_seconds = 0;  // of this run; 0 for a hit
   std::string manifest;                 // of the key; empty when an input never came to be
   std::vector<OutputEntry> outputs;
@@ -69,7 +69,12 @@ class Runner {
 
 /// What a run would do, without doing it.
 struct NodePlan {
-  enum class Verdict { hit, run, maybe, unneeded };  // maybe: an input will be computed anew and may turn out equal
+  enum class Verdict {
+    hit,
+    run,
+    maybe,
+    unneeded
+  };  // maybe: an input will be computed anew and may turn out equal
   Verdict verdict = Verdict::run;
   std::string reason;
   std::optional<double> seconds;  // what the node took when it last ran with this key

@@ -30,6 +30,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -37,8 +38,6 @@
 #include <type_traits>
 #include <utility>
 #include <vector>
-
-#include <nlohmann/json.hpp>
 
 #include "ballflow/plugin.h"
 
@@ -81,19 +80,45 @@ class RunContext {
 namespace detail {
 
 inline bf_bytes bytes(std::string_view text) { return {text.data(), text.size()}; }
-inline std::string_view view(bf_bytes text) {
-  return {text.data, static_cast<std::size_t>(text.size)};
-}
+inline std::string_view view(bf_bytes text) { return {text.data, static_cast<std::size_t>(text.size)}; }
 
 template <class T>
 struct ScalarDtype;
-template <> struct ScalarDtype<double> { static constexpr bf_dtype value = BF_F64; static constexpr const char* name = "f64"; };
-template <> struct ScalarDtype<float> { static constexpr bf_dtype value = BF_F32; static constexpr const char* name = "f32"; };
-template <> struct ScalarDtype<std::int64_t> { static constexpr bf_dtype value = BF_I64; static constexpr const char* name = "i64"; };
-template <> struct ScalarDtype<std::int32_t> { static constexpr bf_dtype value = BF_I32; static constexpr const char* name = "i32"; };
-template <> struct ScalarDtype<std::uint32_t> { static constexpr bf_dtype value = BF_U32; static constexpr const char* name = "u32"; };
-template <> struct ScalarDtype<std::uint16_t> { static constexpr bf_dtype value = BF_U16; static constexpr const char* name = "u16"; };
-template <> struct ScalarDtype<std::uint8_t> { static constexpr bf_dtype value = BF_U8; static constexpr const char* name = "u8"; };
+template <>
+struct ScalarDtype<double> {
+  static constexpr bf_dtype value = BF_F64;
+  static constexpr const char* name = "f64";
+};
+template <>
+struct ScalarDtype<float> {
+  static constexpr bf_dtype value = BF_F32;
+  static constexpr const char* name = "f32";
+};
+template <>
+struct ScalarDtype<std::int64_t> {
+  static constexpr bf_dtype value = BF_I64;
+  static constexpr const char* name = "i64";
+};
+template <>
+struct ScalarDtype<std::int32_t> {
+  static constexpr bf_dtype value = BF_I32;
+  static constexpr const char* name = "i32";
+};
+template <>
+struct ScalarDtype<std::uint32_t> {
+  static constexpr bf_dtype value = BF_U32;
+  static constexpr const char* name = "u32";
+};
+template <>
+struct ScalarDtype<std::uint16_t> {
+  static constexpr bf_dtype value = BF_U16;
+  static constexpr const char* name = "u16";
+};
+template <>
+struct ScalarDtype<std::uint8_t> {
+  static constexpr bf_dtype value = BF_U8;
+  static constexpr const char* name = "u8";
+};
 
 /// How one element of an array is stored: a scalar, std::array<scalar, k>, or a struct of k equal scalars
 /// that says so by `scalar` and `dimension`. width 0 = no trailing dimension.
@@ -108,7 +133,10 @@ struct Element<std::array<T, K>> {
   static constexpr std::size_t width = K;
 };
 template <class T>
-  requires requires { typename T::scalar; T::dimension; }
+requires requires {
+  typename T::scalar;
+  T::dimension;
+}
 struct Element<T> {
   using Scalar = typename T::scalar;
   static constexpr std::size_t width = T::dimension;
@@ -126,9 +154,8 @@ concept SharedArray = requires(const A& a) {
 
 inline std::shared_ptr<const void> keep(const bf_artifact& artifact) {
   artifact.retain(artifact.owner);
-  return {artifact.owner, [release = artifact.release](const void* owner) {
-            release(const_cast<void*>(owner));
-          }};
+  return {artifact.owner,
+          [release = artifact.release](const void* owner) { release(const_cast<void*>(owner)); }};
 }
 
 /// Arrays on their way out, with what keeps their data alive.
@@ -299,7 +326,8 @@ class TypeDecl {
     json_["arrays"].push_back({{"name", name}, {"dtype", dtype}, {"shape", std::move(shape)}});
     fields_.push_back({std::make_shared<const std::string>(name), false, {}, {}});
   }
-  Json json_ = {{"id", ""}, {"version", 0}, {"doc", ""}, {"arrays", Json::array()}, {"summary", Json::array()}};
+  Json json_ = {
+      {"id", ""}, {"version", 0}, {"doc", ""}, {"arrays", Json::array()}, {"summary", Json::array()}};
   std::vector<Field> fields_;
   std::function<Json(const T&)> summarize_;
   std::function<std::string(const T&)> check_;
@@ -496,10 +524,10 @@ class NodeDecl {
   };
   /// A parameter with named values.
   template <class O, class E>
-    requires std::is_enum_v<E>
-  ParamRef choice(std::string_view name, O N::*options, E O::*member, std::vector<Choice<E>> choices) {
-    return add_choice<E>(name, [options, member](N& node) -> E& { return (node.*options).*member; },
-                         std::move(choices));
+  requires std::is_enum_v<E> ParamRef choice(std::string_view name, O N::*options, E O::*member,
+                                             std::vector<Choice<E>> choices) {
+    return add_choice<E>(
+        name, [options, member](N& node) -> E& { return (node.*options).*member; }, std::move(choices));
   }
 
   const Json& json() const { return json_; }
@@ -580,24 +608,34 @@ class NodeDecl {
   template <class E, class Get>
   ParamRef add_choice(std::string_view name, Get get, std::vector<Choice<E>> choices) {
     N defaults{};
-    Json json = {{"name", name}, {"kind", "choice"}, {"default", nullptr}, {"doc", ""}, {"choices", Json::array()}};
+    Json json = {
+        {"name", name}, {"kind", "choice"}, {"default", nullptr}, {"doc", ""}, {"choices", Json::array()}};
     for (const Choice<E>& choice : choices) {
       json["choices"].push_back({{"value", choice.name}, {"doc", choice.doc}});
       if (choice.value == get(defaults)) json["default"] = choice.name;
     }
     json_["params"].push_back(std::move(json));
-    setters_.push_back([get, name = std::string(name), choices = std::move(choices)](N& node, const Json& params) {
-      const auto text = params.at(name).template get<std::string>();
-      for (const Choice<E>& choice : choices) {
-        if (text == choice.name) get(node) = choice.value;
-      }
-    });
+    setters_.push_back(
+        [get, name = std::string(name), choices = std::move(choices)](N& node, const Json& params) {
+          const auto text = params.at(name).template get<std::string>();
+          for (const Choice<E>& choice : choices) {
+            if (text == choice.name) get(node) = choice.value;
+          }
+        });
     return ParamRef(json_["params"].back());
   }
 
-  Json json_ = {{"id", ""}, {"version", 0}, {"summary", ""}, {"doc", ""}, {"avoid_when", ""}, {"cites", Json::array()},
-                {"libraries", Json::object()}, {"uses_seed", false}, {"inputs", Json::array()},
-                {"outputs", Json::array()}, {"params", Json::array()}};
+  Json json_ = {{"id", ""},
+                {"version", 0},
+                {"summary", ""},
+                {"doc", ""},
+                {"avoid_when", ""},
+                {"cites", Json::array()},
+                {"libraries", Json::object()},
+                {"uses_seed", false},
+                {"inputs", Json::array()},
+                {"outputs", Json::array()},
+                {"params", Json::array()}};
   std::vector<std::function<void(N&, const bf_run&)>> readers_;
   std::vector<std::function<void(const N&, const bf_run&)>> writers_;
   std::vector<std::function<void(N&, const Json&)>> setters_;
@@ -661,24 +699,23 @@ std::vector<const bf_type*> type_entries() {
 /// The one line that makes a shared object a plugin. `nodes` and `types` are expressions of type
 /// std::vector<const bf_node*> and std::vector<const bf_type*>; they are evaluated once, when the engine
 /// asks for the tables.
-#define BALLFLOW_PLUGIN(plugin_name, plugin_version, nodes_expression, types_expression)               \
-  extern "C" __attribute__((visibility("default"), used, section(BALLFLOW_ABI_SECTION)))               \
-  const bf_abi_note ballflow_abi_note = {{'B', 'A', 'L', 'L', 'F', 'L', 'O', 'W'},                      \
-                                         BALLFLOW_ABI_VERSION, 0};                                     \
-  extern "C" __attribute__((visibility("default"))) const bf_plugin* ballflow_plugin(void) {           \
-    try {                                                                                              \
-      static const std::vector<const bf_node*> nodes = nodes_expression;                               \
-      static const std::vector<const bf_type*> types = types_expression;                               \
-      static const bf_plugin plugin = {sizeof(bf_plugin),                                              \
-                                       BALLFLOW_ABI_VERSION,                                           \
-                                       ::ballflow::detail::bytes(plugin_name),                         \
-                                       ::ballflow::detail::bytes(plugin_version),                      \
-                                       types.data(),                                                   \
-                                       types.size(),                                                   \
-                                       nodes.data(),                                                   \
-                                       nodes.size()};                                                  \
-      return &plugin;                                                                                  \
-    } catch (...) {                                                                                    \
-      return nullptr; /* the engine reports that the tables could not be made */                       \
-    }                                                                                                  \
+#define BALLFLOW_PLUGIN(plugin_name, plugin_version, nodes_expression, types_expression)                     \
+  extern "C" __attribute__((visibility("default"), used, section(BALLFLOW_ABI_SECTION)))                     \
+  const bf_abi_note ballflow_abi_note = {{'B', 'A', 'L', 'L', 'F', 'L', 'O', 'W'}, BALLFLOW_ABI_VERSION, 0}; \
+  extern "C" __attribute__((visibility("default"))) const bf_plugin* ballflow_plugin(void) {                 \
+    try {                                                                                                    \
+      static const std::vector<const bf_node*> nodes = nodes_expression;                                     \
+      static const std::vector<const bf_type*> types = types_expression;                                     \
+      static const bf_plugin plugin = {sizeof(bf_plugin),                                                    \
+                                       BALLFLOW_ABI_VERSION,                                                 \
+                                       ::ballflow::detail::bytes(plugin_name),                               \
+                                       ::ballflow::detail::bytes(plugin_version),                            \
+                                       types.data(),                                                         \
+                                       types.size(),                                                         \
+                                       nodes.data(),                                                         \
+                                       nodes.size()};                                                        \
+      return &plugin;                                                                                        \
+    } catch (...) {                                                                                          \
+      return nullptr; /* the engine reports that the tables could not be made */                             \
+    }                                                                                                        \
   }

@@ -30,7 +30,8 @@ struct RunTest : testing::Test {
   }
 
   std::size_t node(Dag& dag, const std::string& path, const std::string& type,
-                   const std::map<std::string, EdgeRef>& inputs = {}, const std::map<std::string, Json>& params = {}) {
+                   const std::map<std::string, EdgeRef>& inputs = {},
+                   const std::map<std::string, Json>& params = {}) {
     DagNode n;
     n.path = path;
     n.decl = registry.node(type);
@@ -170,7 +171,8 @@ TEST_F(RunTest, an_output_that_breaks_its_type_is_a_failure_of_the_node) {
   dag.outputs.push_back({"out", "", {bad, "numbers"}});
   const RunResult result = run(dag, store());
   EXPECT_EQ(result.nodes[bad].status, NodeStatus::failed);
-  EXPECT_NE(result.nodes[bad].cause.find("number 1 is negative"), std::string::npos) << result.nodes[bad].cause;
+  EXPECT_NE(result.nodes[bad].cause.find("number 1 is negative"), std::string::npos)
+      << result.nodes[bad].cause;
 }
 
 TEST_F(RunTest, cancelling_ends_the_run_soon_and_keeps_what_is_complete) {
@@ -221,7 +223,8 @@ TEST_F(RunTest, a_node_that_is_not_deterministic_is_reported_and_its_descendants
   ASSERT_FALSE(events.messages.empty());
   EXPECT_NE(events.messages[0].find("not deterministic"), std::string::npos);
   const ArtifactPtr result = runner.artifact(dag.outputs[0].from);
-  EXPECT_EQ(static_cast<const double*>(result->find("values")->data)[0], 7) << "2 from the second execution + 5";
+  EXPECT_EQ(static_cast<const double*>(result->find("values")->data)[0], 7)
+      << "2 from the second execution + 5";
 }
 
 TEST_F(RunTest, a_node_that_is_never_deterministic_ends_as_a_failure_when_its_result_cannot_be_kept) {
@@ -251,7 +254,8 @@ TEST_F(RunTest, warnings_are_shown_again_on_a_hit) {
 TEST_F(RunTest, nodes_whose_estimates_exceed_the_budget_together_never_run_together) {
   Dag dag;
   for (int i = 0; i < 6; ++i) {
-    const auto heavy = node(dag, "heavy" + std::to_string(i), "Heavy", {}, {{"value", static_cast<double>(i)}});
+    const auto heavy =
+        node(dag, "heavy" + std::to_string(i), "Heavy", {}, {{"value", static_cast<double>(i)}});
     dag.outputs.push_back({"h" + std::to_string(i), "", {heavy, "numbers"}});
   }
   RunOptions options;
@@ -300,10 +304,12 @@ TEST_F(RunTest, plan_foretells_hit_run_and_maybe) {
     return out;
   };
   auto cache = store();
-  EXPECT_EQ(verdicts(plan(diamond(1.5, 2), *cache, 0, {})), (std::vector<V>{V::run, V::run, V::maybe, V::maybe}));
+  EXPECT_EQ(verdicts(plan(diamond(1.5, 2), *cache, 0, {})),
+            (std::vector<V>{V::run, V::run, V::maybe, V::maybe}));
   run(diamond(1.5, 2), cache);
   EXPECT_EQ(verdicts(plan(diamond(1.5, 2), *cache, 0, {})), (std::vector<V>{V::hit, V::hit, V::hit, V::hit}));
-  EXPECT_EQ(verdicts(plan(diamond(1.5, 3), *cache, 0, {})), (std::vector<V>{V::hit, V::run, V::hit, V::maybe}));
+  EXPECT_EQ(verdicts(plan(diamond(1.5, 3), *cache, 0, {})),
+            (std::vector<V>{V::hit, V::run, V::hit, V::maybe}));
 }
 
 TEST_F(RunTest, the_report_holds_status_summary_and_times) {
@@ -318,7 +324,8 @@ TEST_F(RunTest, the_report_holds_status_summary_and_times) {
 }
 
 struct KeyTest : RunTest {
-  Digest key(const DagNode& n, const std::map<std::string, OutputEntry>& inputs = {}, std::uint64_t seed = 0) {
+  Digest key(const DagNode& n, const std::map<std::string, OutputEntry>& inputs = {},
+             std::uint64_t seed = 0) {
     return action_key(n, inputs, seed, *store()).key;
   }
 };
@@ -340,7 +347,8 @@ TEST_F(KeyTest, every_field_of_the_manifest_changes_the_key_and_is_named) {
   decl.uses_seed = true;
   dag.nodes[0].decl = &decl;
   const ActionKey base = action_key(dag.nodes[0], {{"a", input}}, 0, *store());
-  const auto expect_change = [&](const DagNode& n, const OutputEntry& in, std::uint64_t seed, const std::string& named) {
+  const auto expect_change = [&](const DagNode& n, const OutputEntry& in, std::uint64_t seed,
+                                 const std::string& named) {
     const ActionKey other = action_key(n, {{"a", in}}, seed, *store());
     EXPECT_NE(other.key, base.key) << named;
     const auto differences = manifest_differences(base.manifest, other.manifest);

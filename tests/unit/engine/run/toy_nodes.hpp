@@ -38,7 +38,8 @@ struct Counters {
 };
 inline Counters counters;
 inline void reset() {
-  counters.source = counters.add = counters.round = counters.slow = counters.fail = counters.noisy = counters.heavy = 0;
+  counters.source = counters.add = counters.round = counters.slow = counters.fail = counters.noisy =
+      counters.heavy = 0;
   counters.heavy_now = counters.heavy_most = 0;
 }
 
@@ -49,7 +50,9 @@ struct ballflow::TypeOf<toy::Numbers> {
   static void declare(TypeDecl<toy::Numbers>& d) {
     d.id("Numbers", 1).doc("A list of numbers.");
     d.array("values", &toy::Numbers::values).length("n").doc("the numbers");
-    d.summary("count", "how many").summarize([](const toy::Numbers& v) { return Json{{"count", v.values.size()}}; });
+    d.summary("count", "how many").summarize([](const toy::Numbers& v) {
+      return Json{{"count", v.values.size()}};
+    });
     d.check([](const toy::Numbers& v) {
       for (std::size_t i = 0; i < v.values.size(); ++i) {
         if (v.values.data()[i] < 0) return "number " + std::to_string(i) + " is negative";
@@ -193,11 +196,12 @@ struct Heavy {
 };
 
 inline const bf_plugin& plugin() {
-  static const std::vector<const bf_node*> nodes = node_entries<Source, Add, Round, Slow, Fail, Noisy, Negative, Heavy>();
+  static const std::vector<const bf_node*> nodes =
+      node_entries<Source, Add, Round, Slow, Fail, Noisy, Negative, Heavy>();
   static const std::vector<const bf_type*> types = type_entries<Numbers>();
-  static const bf_plugin plugin = {sizeof(bf_plugin),          BALLFLOW_ABI_VERSION, detail::bytes("toy"),
-                                   detail::bytes("1"),         types.data(),         types.size(),
-                                   nodes.data(),               nodes.size()};
+  static const bf_plugin plugin = {sizeof(bf_plugin),  BALLFLOW_ABI_VERSION, detail::bytes("toy"),
+                                   detail::bytes("1"), types.data(),         types.size(),
+                                   nodes.data(),       nodes.size()};
   return plugin;
 }
 
