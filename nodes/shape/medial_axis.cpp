@@ -418,16 +418,6 @@ void Axis::keep_inside(Polygon polygon, std::int32_t w0, std::int32_t w1, bool c
     const double d0 = depth(w0, x), d1 = depth(w1, x);
     return std::abs(d0) > std::abs(d1) ? d0 : d1;
   };
-  if (std::all_of(polygon.begin(), polygon.end(), is_ball)) {
-    Polygon centers = polygon;
-    std::sort(centers.begin(), centers.end());
-    centers.erase(std::unique(centers.begin(), centers.end()), centers.end());
-    if (centers.size() < 3) return;
-    Vec3 centroid;
-    for (const std::int32_t b : centers) centroid = centroid + center(b);
-    // A facet may lie in the boundary of R: the polytope outside it is then flat.
-    if (depth_of((1.0 / static_cast<double>(centers.size())) * centroid) < -same_) return;
-  }
   if (std::count_if(polygon.begin(), polygon.end(), is_ball) < 2)
     return add_polygon(polygon, AxisKind::voronoi);
 
@@ -458,6 +448,16 @@ void Axis::keep_inside(Polygon polygon, std::int32_t w0, std::int32_t w1, bool c
       corners.insert(corners.end(), path.begin(), path.end());
       wall = wall || !path.empty();
     }
+  }
+  if (std::all_of(corners.begin(), corners.end(), is_ball)) {
+    Polygon centers = corners;
+    std::sort(centers.begin(), centers.end());
+    centers.erase(std::unique(centers.begin(), centers.end()), centers.end());
+    if (centers.size() < 3) return;
+    Vec3 centroid;
+    for (const std::int32_t b : centers) centroid = centroid + center(b);
+    // A facet may lie in the boundary of R: the polytope outside it is then flat.
+    if (depth_of((1.0 / static_cast<double>(centers.size())) * centroid) < -same_) return;
   }
   add_polygon(corners, wall ? AxisKind::wall : AxisKind::voronoi);
 }
