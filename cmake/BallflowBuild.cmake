@@ -22,14 +22,17 @@ endif()
 
 set(BALLFLOW_PLUGIN_DIR ${CMAKE_BINARY_DIR}/lib/ballflow)
 
-# ballflow_node_family(family LIBRARIES ...): the calling folder is a family of nodes.
+# ballflow_node_family(family LIBRARIES ... EXCEPT file.cpp ...): the calling folder is a family of nodes.
 #
-# ballflow_geometry_<family>: every *.cpp that is no adapter, a static library that sees nodes/ and no engine.
+# ballflow_geometry_<family>: every *.cpp that is no adapter and not excepted, a static library that sees nodes/ and no engine.
 # ballflow_node_<family>: the adapters *.node.cpp and plugin.cpp, a plugin in lib/ballflow/<family>.so.
 function(ballflow_node_family family)
-  cmake_parse_arguments(ARG "" "" "LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "LIBRARIES;EXCEPT" ${ARGN})
   file(GLOB algorithms CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   file(GLOB adapters CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.node.cpp ${CMAKE_CURRENT_SOURCE_DIR}/plugin.cpp)
+  foreach(file IN LISTS ARG_EXCEPT)
+    list(REMOVE_ITEM algorithms ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+  endforeach()
   if(adapters)
     list(REMOVE_ITEM algorithms ${adapters})
   endif()
@@ -47,7 +50,7 @@ function(ballflow_node_family family)
   if(adapters)
     set(plugin ballflow_node_${family})
     add_library(${plugin} MODULE ${adapters})
-    target_link_libraries(${plugin} PRIVATE ${geometry} ballflow_sdk)
+    target_link_libraries(${plugin} PRIVATE ${geometry} ballflow_artifact_types)
     set_target_properties(${plugin} PROPERTIES PREFIX "" OUTPUT_NAME ${family}
       LIBRARY_OUTPUT_DIRECTORY ${BALLFLOW_PLUGIN_DIR})
     target_link_options(${plugin} PRIVATE -Wl,--no-undefined)

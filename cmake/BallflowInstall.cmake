@@ -22,7 +22,7 @@ add_custom_target(ballflow_programs DEPENDS ${programs} ${plugin_targets})
 
 install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS ${plugin_targets} LIBRARY DESTINATION lib/ballflow)
-install(TARGETS ballflow_sdk ballflow_engine ${geometry_targets} EXPORT ballflowTargets
+install(TARGETS ballflow_sdk ballflow_artifact_types ballflow_engine ${geometry_targets} EXPORT ballflowTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY engine/include/ballflow DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp")

@@ -738,8 +738,10 @@ Digest Store::file_digest(const std::string& path) {
     struct stat status {};
     const int error = file.is_open() ? files.status(file.get(), status) : file.get();
     if (error < 0) fail(message(error), "check the path and the permissions of the file");
-    if (!S_ISREG(status.st_mode))
-      fail("it is not a regular file", "name a file, not a folder, pipe or device");
+    if (!S_ISREG(status.st_mode)) {
+      fail(S_ISDIR(status.st_mode) ? "it is a directory" : "it is not a regular file",
+           "name a file, not a folder, pipe or device");
+    }
     const FileState state(status);
     if (state.settled(files.now())) {
       if (const auto memo = impl_->read_entry(impl_->memos, state.memo_name())) {

@@ -21,6 +21,7 @@ struct VerifyCover {
         "Uses nothing of the covering matrix but the definition of its entries, so it also checks balls of "
         "other "
         "origin. Covering the samples is not covering the surface between them.");
+    d.avoid_when("the error between samples is asked: it looks at the samples alone");
     d.cites("kornberger2010", "3.6.1");
     d.input("balls", &VerifyCover::balls).doc("the selected balls");
     d.input("points", &VerifyCover::points).doc("samples that should be covered");

@@ -1,7 +1,6 @@
 #include "sample/affine_span.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/version.h>
 
 #include <array>
 #include <string>
@@ -37,7 +36,5 @@ void require_space_filling(std::span<const Vec3> points) {
           : "all " + number + " points lie " + places[static_cast<std::size_t>(dimension + 1)],
       "a sample of a surface in space has at least four points that are not in one plane");
 }
-
-const char* cgal_version() { return CGAL_VERSION_STR; }
 
 }  // namespace ballflow::geometry

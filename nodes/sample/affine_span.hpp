@@ -17,7 +17,4 @@ int affine_dimension(std::span<const Vec3> points);
 /// - the points must be finite and pairwise distinct
 void require_space_filling(std::span<const Vec3> points);
 
-/// Version of the library that decides.
-const char* cgal_version();
-
 }  // namespace ballflow::geometry

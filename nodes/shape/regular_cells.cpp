@@ -9,7 +9,6 @@
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 #include <CGAL/property_map.h>
 #include <CGAL/spatial_sort.h>
-#include <CGAL/version.h>
 
 #include <algorithm>
 #include <numeric>
@@ -101,7 +100,5 @@ RegularCells regular_cells(std::span<const Vec3> centers, std::span<const double
   }
   return flat;
 }
-
-const char* cgal_version() { return CGAL_VERSION_STR; }
 
 }  // namespace ballflow::geometry

@@ -34,7 +34,4 @@ struct RegularCells {
 /// - Coordinates and weights are finite; there are fewer than 2^31 points.
 RegularCells regular_cells(std::span<const Vec3> centers, std::span<const double> weights, Monitor& monitor);
 
-/// Version of the library that decides, for cache keys.
-const char* cgal_version();
-
 }  // namespace ballflow::geometry

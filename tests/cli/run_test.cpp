@@ -172,7 +172,7 @@ TEST_F(CliTest, ctrl_c_exits_4_and_the_next_run_goes_on) {
 
 TEST_F(CliTest, bad_files_are_refused_with_the_reason) {
   expect_refused("empty.off", "", "empty");
-  expect_refused("three.xyz", "0 0 0\n1 0 0\n0 1 0\n", "3 points");
+  expect_refused("three.xyz", "0 0 0\n1 0 0\n0 1 0\n", "only 3 distinct points");
   expect_refused("flat.xyz", "0 0 0\n1 0 0\n0 1 0\n1 1 0\n2 3 0\n", "plane");
   expect_refused("equal.xyz", "1 2 3\n1 2 3\n1 2 3\n1 2 3\n1 2 3\n", "point");
   expect_refused("nan.xyz", "0 0 0\n1 0 0\n0 nan 0\n0 0 1\n1 1 1\n", "nan");

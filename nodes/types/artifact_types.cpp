@@ -1,0 +1,256 @@
+#include "types/artifact_types.hpp"
+
+#include <algorithm>
+
+namespace ballflow {
+namespace {
+
+Json box_json(const geometry::Box& box) {
+  if (box.empty()) return nullptr;
+  return {{box.lower.x, box.lower.y, box.lower.z}, {box.upper.x, box.upper.y, box.upper.z}};
+}
+}  // namespace
+
+void TypeOf<geometry::PointSet>::declare(TypeDecl<geometry::PointSet>& d) {
+  using T = geometry::PointSet;
+  d.id("PointSet", 1).doc("A sample of a surface: n pairwise distinct points.");
+  d.array("points", &T::points).length("n").doc("coordinates, model units");
+  d.array("normals", &T::normals).length("n").optional().doc("unit normals, where the source had them");
+  d.summary("count", "number of points").summary("bbox", "[[min x, y, z], [max x, y, z]], model units");
+  d.summarize([](const T& v) {
+    return Json{{"count", v.points.size()}, {"bbox", box_json(geometry::bounding_box(v.points.span()))}};
+  });
+  d.check([](const T& v) { return geometry::broken_invariant(v); });
+}
+
+void TypeOf<geometry::TriangleMesh>::declare(TypeDecl<geometry::TriangleMesh>& d) {
+  using T = geometry::TriangleMesh;
+  d.id("TriangleMesh", 1)
+      .doc("An indexed set of triangles; it may be open or non-manifold, the summary says so.");
+  d.array("vertices", &T::vertices).length("v").doc("coordinates, model units");
+  d.array("triangles", &T::triangles).length("f").doc("vertex indices");
+  d.summary("vertices", "number of vertices").summary("faces", "number of triangles");
+  d.summary("closed", "every edge belongs to exactly two triangles");
+  d.summary("manifold", "edges have at most two triangles, vertex stars are one disk or half disk");
+  d.summary("oriented", "no two triangles run through a shared edge in the same direction");
+  d.summary("genus",
+            "total over the components, boundary loops filled; null when not manifold or not oriented");
+  d.summary("components", "connected components")
+      .summary("boundary_loops", "closed chains of boundary edges");
+  d.summarize([](const T& v) {
+    const geometry::MeshTopology t = geometry::mesh_topology(v);
+    return Json{{"vertices", t.vertices},     {"faces", t.faces},
+                {"closed", t.closed},         {"manifold", t.manifold},
+                {"oriented", t.oriented},     {"genus", t.genus < 0 ? Json(nullptr) : Json(t.genus)},
+                {"components", t.components}, {"boundary_loops", t.boundary_loops}};
+  });
+  d.check([](const T& v) { return geometry::broken_invariant(v); });
+}
+
+void TypeOf<geometry::PoleSet>::declare(TypeDecl<geometry::PoleSet>& d) {
+  using T = geometry::PoleSet;
+  d.id("PoleSet", 1)
+      .doc(
+          "Voronoi vertices that are poles of a sample, or candidates for its third pole, and the poles of "
+          "every "
+          "sample.");
+  d.array("centers", &T::centers).length("p").doc("Voronoi vertices, model units");
+  d.array("radii", &T::radii).length("p").doc("distance to the defining samples, model units");
+  d.array("labels", &T::labels).length("p").doc("0 unlabelled, 1 inner, 2 outer");
+  d.array("defining_offsets", &T::defining_offsets).length("p+1").doc("where the samples of a pole begin");
+  d.array("defining_samples", &T::defining_samples)
+      .length("d")
+      .doc("samples on the sphere of each pole, ascending");
+  d.array("unbounded", &T::unbounded).length("p").doc("1 where a far-away bounding point is a site");
+  d.array("sample_poles", &T::sample_poles)
+      .length("n")
+      .doc(
+          "poles of each sample, -1 for none: the farthest vertex of its cell, the farthest behind it, "
+          "and, "
+          "where labels say that both are on one side of the surface, the farthest on the other");
+  d.summary("samples", "number of samples").summary("poles", "number of distinct poles");
+  d.summary("candidates", "vertices that are no pole; LabelPoles chooses third poles among them");
+  d.summary("inner", "poles labelled inner").summary("outer", "poles labelled outer");
+  d.summarize([](const T& v) {
+    std::int64_t count[3] = {0, 0, 0};
+    for (const std::uint8_t label : v.labels) ++count[label < 3 ? label : 0];
+    const std::vector<std::uint8_t> pole = geometry::is_pole(v);
+    const auto poles = std::count(pole.begin(), pole.end(), 1);
+    return Json{{"samples", v.sample_poles.size()},
+                {"poles", poles},
+                {"candidates", static_cast<std::int64_t>(v.size()) - poles},
+                {"inner", count[1]},
+                {"outer", count[2]}};
+  });
+  d.check([](const T& v) { return geometry::broken_invariant(v); });
+}
+
+void TypeOf<geometry::Balls>::declare(TypeDecl<geometry::Balls>& d) {
+  using T = geometry::Balls;
+  d.id("Balls", 1).doc("A set of closed balls.");
+  d.array("centers", &T::centers).length("n").doc("model units");
+  d.array("radii", &T::radii).length("n").doc("model units, >= 0");
+  d.array("defining_offsets", &T::defining_offsets)
+      .length("n+1")
+      .optional()
+      .doc("where the samples of a ball begin");
+  d.array("defining_samples", &T::defining_samples)
+      .length("d")
+      .optional()
+      .doc("samples each ball passes through");
+  d.summary("count", "number of balls").summary("bbox", "bounding box of the union, model units");
+  d.summary("min_radius", "model units").summary("max_radius", "model units");
+  d.summarize([](const T& v) {
+    Json smallest = nullptr, largest = nullptr;
+    if (v.size() != 0) {
+      const auto [low, high] = std::minmax_element(v.radii.begin(), v.radii.end());
+      smallest = *low;
+      largest = *high;
+    }
+    return Json{{"count", v.size()},
+                {"bbox", box_json(geometry::bounding_box(v))},
+                {"min_radius", smallest},
+                {"max_radius", largest}};
+  });
+  d.check([](const T& v) { return geometry::broken_invariant(v); });
+}
+
+void TypeOf<geometry::CoverState>::declare(TypeDecl<geometry::CoverState>& d) {
+  using T = geometry::CoverState;
+  d.id("CoverState", 1)
+      .doc("A set covering instance on its way to a solution: residual matrix, choices, bounds.");
+  d.scalar("balls", &T::balls).doc("number of balls of the original instance");
+  d.scalar("samples", &T::samples).doc("number of samples of the original instance");
+  d.array("row_offsets", &T::row_offsets).length("r+1").doc("where the columns of a row begin");
+  d.array("columns", &T::columns).length("nnz").doc("column indices of the residual matrix, rows ascending");
+  d.array("row_ids", &T::row_ids).length("r").doc("ball of each row");
+  d.array("column_ids", &T::column_ids).length("c").doc("sample of each column");
+  d.array("chosen", &T::chosen).length("k").doc("chosen balls in order of choice");
+  d.array("chosen_how", &T::chosen_how).length("k").doc("0 essential, 1 exact, 2 greedy, 3 trusted, 4 all");
+  d.array("uncovered", &T::uncovered).length("u").doc("samples that no ball covers");
+  d.scalar("lower_bound", &T::lower_bound).doc("proven lower bound on any cover, -1 while nothing is known");
+  d.scalar("exact_so_far", &T::exact_so_far).doc("1 while all but the greedy picks was proven optimal");
+  d.summary("rows", "balls left in the matrix").summary("cols", "samples left in the matrix");
+  d.summary("nnz", "entries of the matrix").summary("chosen", "balls chosen so far");
+  d.summary("remaining", "samples that no chosen ball covers yet");
+  d.summary("lower_bound", "no cover has fewer balls; null while nothing is known");
+  d.summary("upper_bound", "chosen balls once nothing remains, else null");
+  d.summary("gap", "(upper - lower) / lower, a fraction; null while a bound is unknown");
+  d.summary("essential", "chosen as the only ball of a sample")
+      .summary("exact", "chosen by exact optimisation");
+  d.summary("greedy", "chosen greedily: each may cost one ball more than the optimum");
+  d.summary("uncovered", "samples that no ball covers");
+  d.summarize([](const T& v) {
+    const auto upper = v.upper_bound();
+    const auto gap = v.gap();
+    return Json{{"rows", v.rows()},
+                {"cols", v.cols()},
+                {"nnz", v.nnz()},
+                {"chosen", v.chosen.size()},
+                {"remaining", v.remaining()},
+                {"lower_bound", v.lower_bound < 0 ? Json(nullptr) : Json(v.lower_bound)},
+                {"upper_bound", upper ? Json(*upper) : Json(nullptr)},
+                {"gap", gap ? Json(*gap) : Json(nullptr)},
+                {"essential", v.count(geometry::Choice::essential)},
+                {"exact", v.count(geometry::Choice::exact)},
+                {"greedy", v.count(geometry::Choice::greedy)},
+                {"uncovered", v.uncovered.size()}};
+  });
+  d.check([](const T& v) { return geometry::broken_invariant(v); });
+}
+
+void TypeOf<geometry::CoverCheck>::declare(TypeDecl<geometry::CoverCheck>& d) {
+  using T = geometry::CoverCheck;
+  d.id("CoverCheck", 1).doc("The outcome of checking from geometry that balls cover samples.");
+  d.scalar("balls", &T::balls).doc("number of balls");
+  d.scalar("samples", &T::samples).doc("number of samples");
+  d.array("uncovered", &T::uncovered).length("u").doc("samples in no ball, ascending");
+  d.summary("balls", "number of balls").summary("samples", "number of samples");
+  d.summary("covered", "samples in at least one ball").summary("uncovered", "samples in none");
+  d.summarize([](const T& v) {
+    const auto missing = static_cast<std::int64_t>(v.uncovered.size());
+    return Json{
+        {"balls", v.balls}, {"samples", v.samples}, {"covered", v.samples - missing}, {"uncovered", missing}};
+  });
+  d.check([](const T& v) { return geometry::broken_invariant(v); });
+}
+
+void TypeOf<geometry::SimplicialComplex>::declare(TypeDecl<geometry::SimplicialComplex>& d) {
+  using T = geometry::SimplicialComplex;
+  d.id("SimplicialComplex", 1)
+      .doc("The weighted zero alpha-shape of balls: the dual complex of their union.");
+  d.array("centers", &T::centers).length("n").doc("centres of the balls, model units");
+  d.array("weights", &T::weights).length("n").doc("squared radii, delta included");
+  d.array("vertices", &T::vertices).length("v").doc("balls that are vertices of the complex");
+  d.array("edges", &T::edges).length("e").doc("pairs of balls, ascending");
+  d.array("triangles", &T::triangles).length("t").doc("triples of balls, ascending");
+  d.array("tetrahedra", &T::tetrahedra).length("c").doc("quadruples of balls, ascending");
+  d.array("vertex_classes", &T::vertex_classes).length("v").doc("0 interior, 1 regular, 2 singular");
+  d.array("edge_classes", &T::edge_classes).length("e").doc("0 interior, 1 regular, 2 singular");
+  d.array("triangle_classes", &T::triangle_classes).length("t").doc("0 interior, 1 regular, 2 singular");
+  d.scalar("delta", &T::delta).doc("added to every squared radius before anything was decided");
+  d.scalar("betti", &T::betti).doc("components, tunnels, cavities of the union");
+  d.summary("vertices", "number").summary("edges", "number").summary("triangles", "number");
+  d.summary("tetrahedra", "number").summary("singular_vertices", "isolated balls");
+  d.summary("singular_edges", "edges in no triangle")
+      .summary("singular_triangles", "triangles in no tetrahedron");
+  d.summary("interior_vertices", "number")
+      .summary("interior_edges", "number")
+      .summary("interior_triangles", "number");
+  d.summary("regular_vertices", "number")
+      .summary("regular_edges", "number")
+      .summary("regular_triangles", "number");
+  d.summary("delta", "squared model units");
+  d.summary("euler_characteristic", "vertices - edges + triangles - tetrahedra");
+  d.summary("betti", "[components, tunnels, cavities] of the union");
+  d.summarize([](const T& v) {
+    Json s{{"vertices", v.vertices.size()},
+           {"edges", v.edges.size()},
+           {"triangles", v.triangles.size()},
+           {"tetrahedra", v.tetrahedra.size()}};
+    const auto classes = [&s](const char* what, const geometry::Array<std::uint8_t>& values) {
+      std::int64_t count[3] = {0, 0, 0};
+      for (const std::uint8_t c : values) ++count[c < 3 ? c : 1];
+      s[std::string("singular_") + what] = count[2];
+      s[std::string("regular_") + what] = count[1];
+      s[std::string("interior_") + what] = count[0];
+    };
+    classes("vertices", v.vertex_classes);
+    classes("edges", v.edge_classes);
+    classes("triangles", v.triangle_classes);
+    s["delta"] = v.delta;
+    s["euler_characteristic"] = v.euler_characteristic();
+    s["betti"] = v.betti;
+    return s;
+  });
+  d.check([](const T& v) { return geometry::broken_invariant(v); });
+}
+
+void TypeOf<geometry::MedialAxis>::declare(TypeDecl<geometry::MedialAxis>& d) {
+  using T = geometry::MedialAxis;
+  d.id("MedialAxis", 1)
+      .doc("The medial axis of a union of balls as a polygon complex with a radius at every vertex.");
+  d.array("vertices", &T::vertices).length("v").doc("model units");
+  d.array("radii", &T::radii).length("v").doc("radius of the maximal inscribed ball, model units");
+  d.array("edges", &T::edges).length("e").doc("vertex pairs of edges that bound no polygon");
+  d.array("polygon_offsets", &T::polygon_offsets).length("f+1").doc("where the corners of a polygon begin");
+  d.array("polygon_vertices", &T::polygon_vertices).length("k").doc("corners in order around the polygon");
+  d.array("polygon_kinds", &T::polygon_kinds).length("f").doc("0 singular triangle, 1 Voronoi facet, 2 wall");
+  d.summary("vertices", "number")
+      .summary("edges", "edges that bound no polygon")
+      .summary("polygons", "number");
+  d.summary("euler_characteristic", "vertices - edges + polygons, every edge counted once");
+  d.summary("components", "connected components");
+  d.summary("expected_euler_characteristic", "that of the alpha-shape the axis was made from");
+  d.summarize([](const T& v) {
+    const geometry::AxisTopology t = geometry::axis_topology(v);
+    return Json{{"vertices", v.vertices.size()},
+                {"edges", v.edges.size()},
+                {"polygons", v.polygons()},
+                {"euler_characteristic", t.euler_characteristic},
+                {"components", t.components}};
+  });
+  d.check([](const T& v) { return geometry::broken_invariant(v); });
+}
+
+}  // namespace ballflow
