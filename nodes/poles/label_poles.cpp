@@ -3,6 +3,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <string>
@@ -17,6 +19,8 @@ namespace {
 
 constexpr auto inner = static_cast<std::uint8_t>(PoleLabel::inner);
 constexpr auto outer = static_cast<std::uint8_t>(PoleLabel::outer);
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 void check_mesh(const TriangleMesh& mesh) {
   if (mesh.triangles.empty()) {
@@ -65,8 +69,63 @@ Balls select_label(const PoleSet& poles, std::uint8_t label) {
   return {std::move(centers), std::move(radii), std::move(offsets), std::move(samples)};
 }
 
+// The poles of every sample, with a third one wherever the first two have the same label: the farthest listed
+// vertex of its cell that has the other label.
+std::vector<std::array<std::int32_t, 3>> with_third_poles(const PoleSet& poles,
+                                                          const std::vector<std::uint8_t>& labels) {
+  std::vector<std::array<std::int32_t, 3>> result(poles.sample_poles.begin(), poles.sample_poles.end());
+  std::vector<std::uint8_t> missing(result.size(), 0);  // the label that none of them has
+  for (std::size_t s = 0; s < result.size(); ++s) {
+    const std::int32_t first = result[s][0], second = result[s][1];
+    result[s][2] = -1;
+    if (first < 0) continue;
+    const std::uint8_t label = labels[at(first)];
+    if (second >= 0 && labels[at(second)] != label) continue;
+    missing[s] = label == inner ? outer : inner;
+  }
+  const auto better = [&](std::size_t i, std::int32_t best) {
+    if (best < 0) return true;
+    if (poles.radii[i] != poles.radii[at(best)]) return poles.radii[i] > poles.radii[at(best)];
+    return poles.centers[i] < poles.centers[at(best)];
+  };
+  for (std::size_t i = 0; i < poles.size(); ++i) {
+    for (std::int64_t k = poles.defining_offsets[i]; k < poles.defining_offsets[i + 1]; ++k) {
+      const std::size_t s = at(poles.defining_samples[static_cast<std::size_t>(k)]);
+      if (missing[s] == labels[i] && better(i, result[s][2])) result[s][2] = static_cast<std::int32_t>(i);
+    }
+  }
+  return result;
+}
+
+// The entries of `poles` that are kept; no sample has a pole that is not.
+PoleSet select_kept(const PoleSet& poles, const std::vector<std::uint8_t>& kept) {
+  if (std::count(kept.begin(), kept.end(), 0) == 0) return poles;
+  std::vector<Vec3> centers;
+  std::vector<double> radii;
+  std::vector<std::uint8_t> labels, unbounded;
+  std::vector<std::int64_t> offsets{0};
+  std::vector<std::int32_t> samples, number(poles.size(), -1);
+  for (std::size_t i = 0; i < poles.size(); ++i) {
+    if (kept[i] == 0) continue;
+    number[i] = static_cast<std::int32_t>(radii.size());
+    centers.push_back(poles.centers[i]);
+    radii.push_back(poles.radii[i]);
+    labels.push_back(poles.labels[i]);
+    unbounded.push_back(poles.unbounded[i]);
+    samples.insert(samples.end(), poles.defining_samples.begin() + poles.defining_offsets[i],
+                   poles.defining_samples.begin() + poles.defining_offsets[i + 1]);
+    offsets.push_back(static_cast<std::int64_t>(samples.size()));
+  }
+  std::vector<std::array<std::int32_t, 3>> sample_poles(poles.sample_poles.begin(), poles.sample_poles.end());
+  for (auto& own : sample_poles) {
+    for (std::int32_t& pole : own) pole = pole < 0 ? -1 : number[at(pole)];
+  }
+  return {std::move(centers), std::move(radii),     std::move(labels),      std::move(offsets),
+          std::move(samples), std::move(unbounded), std::move(sample_poles)};
+}
+
 struct Counts {
-  std::int64_t inner = 0, uncertain = 0, negative = 0;
+  std::int64_t all = 0, inner = 0, uncertain = 0, negative = 0;
 };
 
 }  // namespace
@@ -95,12 +154,14 @@ LabelledPoles label_poles(const PoleSet& poles, const TriangleMesh& mesh, const 
   });
   monitor.step(0.9);
 
-  Counts counts;
-  for (const auto& value : values) {
-    if (value.number > 0.5) ++counts.inner;
-    if (value.number < -0.5) ++counts.negative;
-  }
   // Components of closed meshes face outwards; an open mesh faces the way that finds more inside.
+  Counts counts;
+  std::vector<std::uint8_t> kept = is_pole(poles);
+  for (std::size_t i = 0; i < poles.size(); ++i) {
+    if (kept[i] == 0) continue;
+    if (values[i].number > 0.5) ++counts.inner;
+    if (values[i].number < -0.5) ++counts.negative;
+  }
   const double sign = !closed && counts.negative > counts.inner ? -1 : 1;
   LabelledPoles result;
   result.turned_triangles =
@@ -108,17 +169,25 @@ LabelledPoles label_poles(const PoleSet& poles, const TriangleMesh& mesh, const 
                : static_cast<std::int64_t>(winding.chain().triangles.size()) - winding.turned();
   result.method = closed && options.method != LabelMethod::winding ? LabelMethod::mesh : LabelMethod::winding;
   std::vector<std::uint8_t> labels(poles.size(), outer);
-  counts = {};
   for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (sign * values[i].number > 0.5 && !values[i].on_surface) labels[i] = inner;
+  }
+  result.poles = poles;
+  result.poles.sample_poles = with_third_poles(poles, labels);
+  result.poles.labels = std::move(labels);
+
+  counts = {};
+  kept = is_pole(result.poles);
+  for (std::size_t i = 0; i < poles.size(); ++i) {
+    if (kept[i] == 0) continue;
     const double number = sign * values[i].number;
+    ++counts.all;
+    if (result.poles.labels[i] == inner) ++counts.inner;
     if (values[i].on_surface || (number >= 0.25 && number <= 0.75)) ++counts.uncertain;
     if (number < -0.5) ++counts.negative;
-    if (!(number > 0.5) || values[i].on_surface) continue;
-    labels[i] = inner;
-    ++counts.inner;
   }
   const std::string uncertain =
-      std::to_string(counts.uncertain) + " of " + std::to_string(poles.size()) + " poles";
+      std::to_string(counts.uncertain) + " of " + std::to_string(counts.all) + " poles";
   if (counts.inner == 0) {
     throw InputError(
         "no pole is inside the mesh (" + uncertain + " are near the middle between inside and outside)" +
@@ -142,8 +211,7 @@ LabelledPoles label_poles(const PoleSet& poles, const TriangleMesh& mesh, const 
                  " poles have a negative winding number: a part of the mesh is inside out");
   }
 
-  result.poles = poles;
-  result.poles.labels = std::move(labels);
+  result.poles = select_kept(result.poles, kept);
   result.uncertain = counts.uncertain;
   result.inner = select_label(result.poles, inner);
   result.outer = select_label(result.poles, outer);

@@ -17,12 +17,13 @@ struct LabelPolesOptions {
 };
 
 struct LabelledPoles {
-  PoleSet poles;  // the input with every label set to inner or outer
+  PoleSet poles;  // with every label inner or outer, with third poles, without the other candidates
   Balls inner;    // polar balls of the inner poles, in their order: the discrete medial axis transform
   Balls outer;    // those of the outer poles; balls of unbounded poles end at the far-away points
 
   LabelMethod method = LabelMethod::mesh;  // what was used: mesh or winding
-  // Poles whose label says little: winding number in [1/4, 3/4], or centre exactly on the surface.
+  // Poles whose label says little (of the poles that are in the result): winding number in [1/4, 3/4], or
+  // centre exactly on the surface.
   std::int64_t uncertain = 0;
   std::int64_t turned_triangles = 0;  // turned over to make the mesh consistently oriented
 };
@@ -39,6 +40,11 @@ struct LabelledPoles {
 /// - `winding`: any mesh; open ones by the generalized winding number [Jacobson et al. 2013]
 /// - `automatic`: `mesh` when the mesh is closed, else `winding` and a warning that says why and how many
 ///   poles are uncertain
+///
+/// Where the first two poles of a sample have the same label, as happens at sharp edges, the farthest vertex
+/// of its cell with the other label, among the poles and candidates of the set, becomes its third pole. Equal
+/// radii are decided by the coordinates of the centres. A sample has poles on one side only when no listed
+/// vertex of its cell is on the other.
 ///
 /// Unbounded poles are outer. A pole exactly on the surface is outer.
 ///

@@ -25,10 +25,11 @@ struct LabelPoles {
         "A pole is inner when the winding number of the mesh around it exceeds 1/2. For closed meshes it is "
         "an integer, counted with exact predicates: right at sharp edges, where the sample is too coarse, "
         "with cavities and with self-intersections. For open meshes it is the generalized winding number. "
-        "Triangles that face inconsistent ways are turned over; the mesh may be inside out. The summary of "
-        "`poles` adds method, uncertain (poles with a winding number from 1/4 to 3/4, or exactly on the "
-        "surface) and turned_triangles. Refuses a mesh without triangles and a mesh that contains no pole, "
-        "such as an open sheet.");
+        "Where both poles of a sample are on one side, as at sharp edges, the farthest candidate on the "
+        "other side becomes its third pole. Triangles that face inconsistent ways are turned over; the mesh "
+        "may be inside out. The summary of `poles` adds method, uncertain (poles with a winding number from "
+        "1/4 to 3/4, or exactly on the surface) and turned_triangles. Refuses a mesh without triangles and a "
+        "mesh that contains no pole, such as an open sheet.");
     d.avoid_when("the mesh is not the surface that was sampled, or has large holes: see `uncertain`.");
     d.cites("kornberger2010", "3.4").cites("aichholzer2007", "labels from a mesh");
     d.cites("jacobson2013", "generalized winding number").cites("barill2018", "hierarchical evaluation");
@@ -36,7 +37,8 @@ struct LabelPoles {
     d.input("poles", &LabelPoles::poles).doc("poles of a sample, labelled or not");
     d.input("mesh", &LabelPoles::mesh)
         .doc("triangles of the surface that was sampled, in the same coordinates");
-    d.output("poles", &LabelPoles::labelled).doc("the same poles, every one labelled inner or outer");
+    d.output("poles", &LabelPoles::labelled)
+        .doc("the poles, every one labelled inner or outer, with third poles, without the other candidates");
     d.output("inner", &LabelPoles::inner)
         .doc("polar balls of the inner poles with the samples they pass through");
     d.output("outer", &LabelPoles::outer)

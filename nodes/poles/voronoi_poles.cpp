@@ -171,8 +171,15 @@ class Diagram {
   }
   double conditioning(const Sites& sites) const;
   Vec3 circumcentre(const Sites& sites) const;
+  // Whether `center` lies behind a pole of sample s: at an obtuse angle to it.
+  bool is_behind(std::size_t s, std::int32_t pole, Vec3 center) const {
+    const Vec3 p = sample_.points[s];
+    return dot(center - p, centers_[at(pole)] - p) < 0;
+  }
   void merge_coincident(std::vector<std::pair<std::int32_t, std::int32_t>> pairs);
-  std::vector<std::array<std::int32_t, 2>> farthest_vertices(Monitor& monitor) const;
+  std::vector<std::array<std::int32_t, 3>> farthest_vertices(Monitor& monitor) const;
+  std::vector<std::uint8_t> poles_and_candidates(
+      const std::vector<std::array<std::int32_t, 3>>& farthest) const;
 
   const PointSet& sample_;
   std::int32_t samples_;
@@ -346,9 +353,9 @@ void Diagram::merge_coincident(std::vector<std::pair<std::int32_t, std::int32_t>
   }
 }
 
-// For each sample the cells that stand for its two poles.
-std::vector<std::array<std::int32_t, 2>> Diagram::farthest_vertices(Monitor& monitor) const {
-  std::vector<std::array<std::int32_t, 2>> farthest(at(samples_), {-1, -1});
+// For each sample the cells that stand for its first two poles.
+std::vector<std::array<std::int32_t, 3>> Diagram::farthest_vertices(Monitor& monitor) const {
+  std::vector<std::array<std::int32_t, 3>> farthest(at(samples_), {-1, -1, -1});
   std::vector<double> greatest(at(samples_), -1.0);
   // Calls accept(sample, center) for the vertices of all cells, and keeps the farthest of those accepted.
   const auto keep_farthest = [&](std::size_t side, std::uint8_t unbounded_side, const auto& accept) {
@@ -374,15 +381,12 @@ std::vector<std::array<std::int32_t, 2>> Diagram::farthest_vertices(Monitor& mon
   };
   keep_farthest(0, 1, [](std::size_t, Vec3) { return true; });
   monitor.step(0.92);
-  const auto behind = [&](std::size_t s, Vec3 center) {
-    const Vec3 p = sample_.points[s];
-    return dot(center - p, centers_[at(farthest[s][0])] - p) < 0;
-  };
+  const auto behind = [&](std::size_t s, Vec3 center) { return is_behind(s, farthest[s][0], center); };
   std::fill(greatest.begin(), greatest.end(), -1.0);
   keep_farthest(1, 0, behind);
   // Only where nothing else is on the other side an unbounded vertex is the second pole: samples of thin
   // sheets.
-  if (std::any_of(farthest.begin(), farthest.end(), [](const auto& pair) { return pair[1] < 0; })) {
+  if (std::any_of(farthest.begin(), farthest.end(), [](const auto& own) { return own[1] < 0; })) {
     keep_farthest(1, 1, [&](std::size_t s, Vec3 center) {
       const std::int32_t found = farthest[s][1];
       return (found < 0 || unbounded_[at(found)] == 1) && behind(s, center);
@@ -392,18 +396,47 @@ std::vector<std::array<std::int32_t, 2>> Diagram::farthest_vertices(Monitor& mon
   return farthest;
 }
 
-PoleSet Diagram::poles(Monitor& monitor) const {
-  std::vector<std::array<std::int32_t, 2>> sample_poles = farthest_vertices(monitor);
+// The cosine of the angle from which on two poles are opposite. On a smooth surface each pole of an r-sample
+// is within 2 arcsin(r / (1 - r)) of a normal [Kornberger 2010, proof of Lemma 4.8], so two poles of a sample
+// are more than 139 degrees apart for r <= 0.15; this is the cosine of 138.6.
+constexpr double opposite = -0.75;
 
-  // Number the poles, and collect the sites of all cells around each of them.
+// Per cell that stands for a Voronoi vertex, 1 for poles and for candidates: where the poles of a sample are
+// not opposite they may be on one side of the surface, so all bounded vertices behind the first are kept.
+std::vector<std::uint8_t> Diagram::poles_and_candidates(
+    const std::vector<std::array<std::int32_t, 3>>& farthest) const {
+  std::vector<std::uint8_t> kept(sites_.size(), 0), blunt(farthest.size(), 0);
+  for (std::size_t s = 0; s < farthest.size(); ++s) {
+    blunt[s] = 1;
+    const std::int32_t first = farthest[s][0], second = farthest[s][1];
+    kept[at(first)] = 1;
+    if (second < 0) continue;
+    kept[at(second)] = 1;
+    const Vec3 u = centers_[at(first)] - sample_.points[s], v = centers_[at(second)] - sample_.points[s];
+    const double product = dot(u, v);  // negative: the second pole is behind the first
+    if (product * product >= opposite * opposite * squared_length(u) * squared_length(v)) blunt[s] = 0;
+  }
+  for (std::size_t i = 0; i < sites_.size(); ++i) {
+    if (unbounded_[at(vertex_[i])] == 1 || kept[at(vertex_[i])] == 1) continue;
+    for (const std::int32_t s : sites_[i]) {
+      if (s >= samples_ || blunt[at(s)] == 0) continue;
+      if (is_behind(at(s), farthest[at(s)][0], centers_[i])) kept[at(vertex_[i])] = 1;
+    }
+  }
+  return kept;
+}
+
+PoleSet Diagram::poles(Monitor& monitor) const {
+  std::vector<std::array<std::int32_t, 3>> sample_poles = farthest_vertices(monitor);
+  const std::vector<std::uint8_t> kept = poles_and_candidates(sample_poles);
+
+  // Number the vertices that are kept, and collect the sites of all cells around each of them.
   std::vector<std::int32_t> number(sites_.size(), -1);
   std::vector<std::int32_t> cell_of;
-  for (const auto& pair : sample_poles) {
-    for (const std::int32_t cell : pair) {
-      if (cell < 0 || number[at(cell)] >= 0) continue;
-      number[at(cell)] = static_cast<std::int32_t>(cell_of.size());
-      cell_of.push_back(cell);
-    }
+  for (std::size_t i = 0; i < sites_.size(); ++i) {
+    if (kept[i] == 0) continue;
+    number[i] = static_cast<std::int32_t>(cell_of.size());
+    cell_of.push_back(static_cast<std::int32_t>(i));
   }
   monitor.step(0.95);
   const std::size_t count = cell_of.size();
@@ -483,8 +516,8 @@ PoleSet Diagram::poles(Monitor& monitor) const {
     radii[i] = std::sqrt(greatest);
     offsets[i + 1] = static_cast<std::int64_t>(defining.size());
   }
-  for (auto& pair : sample_poles) {
-    for (std::int32_t& cell : pair) cell = cell < 0 ? -1 : rank[at(number[at(cell)])];
+  for (auto& own : sample_poles) {
+    for (std::int32_t& cell : own) cell = cell < 0 ? -1 : rank[at(number[at(cell)])];
   }
 
   PoleSet result;

@@ -15,8 +15,15 @@ struct VoronoiPolesOptions {
 };
 
 /// The poles of every sample [Amenta and Bern 1999, section 4; Kornberger 2010, 3.3 and 3.4]: the vertex of
-/// its Voronoi cell farthest from it, and the farthest one v on the other side, (v - s) . (p1 - s) < 0. All
-/// labels are `unlabelled`.
+/// its Voronoi cell farthest from it, and the farthest one v behind that, (v - s) . (p1 - s) < 0. All labels
+/// are `unlabelled`, there are no third poles yet.
+///
+/// On smooth, well-sampled surfaces the two are nearly opposite, one on either side. At a sharp edge the
+/// outer part of the cell is a fan between the normals of the faces: where it spans 90 degrees or more, both
+/// poles may be in it, although the cell has vertices inside the solid too. So where the poles of a sample
+/// are less than 138.6 degrees apart (cosine above -3/4), all bounded vertices of its cell behind the first
+/// pole are in the result as candidates; label_poles, which knows the surface, finds the missing pole among
+/// them.
 ///
 /// The diagram is that of the sample and twelve far-away points around it, so every cell of a sample is
 /// bounded. A Voronoi vertex changes only if its empty ball would contain a far-away point. That ball touches

@@ -19,10 +19,13 @@ struct VoronoiPoles {
     d.summary("The two poles of every sample: far vertices of its Voronoi cell on either side.");
     d.doc(
         "The first pole of a sample is the vertex of its Voronoi cell farthest from it, the second the "
-        "farthest on the other side. Far-away points around the sample bound all cells; Voronoi vertices "
-        "that depend on them lie well outside the bounding box and are marked unbounded. Vertices that "
-        "coincide exactly (five and more cospherical samples) are one. Accepts any distinct points that are "
-        "not all in one plane; refuses fewer than 4 points, equal points and coplanar points.");
+        "farthest behind that. Where they are less than 138.6 degrees apart, as at sharp edges, both may be "
+        "on one side of the surface: all bounded vertices behind the first are kept as candidates, among "
+        "which LabelPoles finds a third pole on the other side. Far-away points around the sample bound all "
+        "cells; Voronoi vertices that depend on them lie well outside the bounding box and are marked "
+        "unbounded. Vertices that coincide exactly (five and more cospherical samples) are one. Accepts any "
+        "distinct points that are not all in one plane; refuses fewer than 4 points, equal points and "
+        "coplanar points.");
     d.avoid_when(
         "the points do not sample a surface: poles of points that fill a volume or follow curves mean "
         "nothing.");
@@ -31,7 +34,7 @@ struct VoronoiPoles {
     d.memory(1 << 20, 40);
     d.input("points", &VoronoiPoles::points).doc("n points on a surface, model units");
     d.output("poles", &VoronoiPoles::poles)
-        .doc("the distinct poles, not labelled, and the two poles of every sample");
+        .doc("the distinct poles and the candidates, not labelled, and the two poles of every sample");
     d.param("bounding_distance", &VoronoiPoles::options, &VoronoiPolesOptions::bounding_distance)
         .unit("longest bounding-box edges")
         .at_least(4)

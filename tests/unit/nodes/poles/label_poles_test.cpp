@@ -4,8 +4,12 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <random>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "poles/voronoi_poles.hpp"
@@ -35,13 +39,30 @@ struct Warnings final : geometry::Monitor {
   void warn(const std::string& line) override { text += line + "\n"; }
 };
 
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+std::span<const std::int32_t> samples_of(const PoleSet& poles, std::size_t pole) {
+  return poles.defining_samples.span().subspan(
+      static_cast<std::size_t>(poles.defining_offsets[pole]),
+      static_cast<std::size_t>(poles.defining_offsets[pole + 1] - poles.defining_offsets[pole]));
+}
+
 LabelledPoles label(const PoleSet& poles, const TriangleMesh& mesh,
                     LabelMethod method = LabelMethod::automatic) {
   LabelledPoles result = label_poles(poles, mesh, {method});
   EXPECT_EQ(geometry::broken_invariant(result.poles), "");
   EXPECT_EQ(geometry::broken_invariant(result.inner), "");
   EXPECT_EQ(geometry::broken_invariant(result.outer), "");
-  EXPECT_EQ(result.inner.size() + result.outer.size(), poles.size());
+  EXPECT_EQ(result.inner.size() + result.outer.size(), result.poles.size());
+  for (std::size_t s = 0; s < poles.sample_poles.size(); ++s) {
+    const auto& before = poles.sample_poles[s];
+    const auto& after = result.poles.sample_poles[s];
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_EQ(poles.centers[at(before[k])], result.poles.centers[at(after[k])]) << "pole of sample " << s;
+    }
+    const bool one_sided = result.poles.labels[at(after[0])] == result.poles.labels[at(after[1])];
+    EXPECT_TRUE(one_sided || after[2] == -1) << "sample " << s << " needs no third pole";
+  }
   return result;
 }
 
@@ -64,8 +85,8 @@ TEST(label_poles, finds_the_one_inner_ball_of_a_cube) {
   EXPECT_EQ(result.inner.centers[0], (Vec3{0, 0, 0}));
   EXPECT_EQ(result.inner.radii[0], std::sqrt(3.0));
   EXPECT_EQ(result.inner.samples_of(0).size(), 8U);
-  for (std::size_t i = 0; i < poles.size(); ++i) {
-    EXPECT_EQ(result.poles.labels[i], poles.unbounded[i] == 1 ? outer : inner);
+  for (std::size_t i = 0; i < result.poles.size(); ++i) {
+    EXPECT_EQ(result.poles.labels[i], result.poles.unbounded[i] == 1 ? outer : inner);
   }
 }
 
@@ -190,15 +211,18 @@ TEST_P(label_poles_of_model, agree_with_the_brute_force_winding_number) {
   const geometry::MeshFile model = geometry::read_mesh_file(path);
   const PoleSet poles = voronoi_poles(model.points, {});
   const LabelledPoles result = label(poles, model.mesh);
-  const std::size_t step = poles.size() * model.mesh.triangles.size() / 8000000 + 1;
-  for (std::size_t i = 0; i < poles.size(); i += step) {
-    if (poles.unbounded[i] == 1) continue;
-    const double winding = brute_force_winding(model.mesh, poles.centers[i]);
+  const std::size_t step = result.poles.size() * model.mesh.triangles.size() / 8000000 + 1;
+  for (std::size_t i = 0; i < result.poles.size(); i += step) {
+    if (result.poles.unbounded[i] == 1) continue;
+    const double winding = brute_force_winding(model.mesh, result.poles.centers[i]);
     if (std::abs(winding - 0.5) < 1e-6) continue;
     EXPECT_EQ(result.poles.labels[i], winding > 0.5 ? inner : outer)
         << "pole " << i << ", winding " << winding;
   }
   EXPECT_EQ(label(poles, model.mesh, LabelMethod::winding).poles.labels, result.poles.labels);
+  const LabelledPoles again = label(result.poles, model.mesh);
+  EXPECT_EQ(again.poles.labels, result.poles.labels);
+  EXPECT_EQ(again.poles.sample_poles, result.poles.sample_poles);
   const double share =
       static_cast<double>(result.inner.size()) / static_cast<double>(model.points.points.size());
   EXPECT_GT(share, 0.85);
@@ -208,6 +232,101 @@ TEST_P(label_poles_of_model, agree_with_the_brute_force_winding_number) {
 INSTANTIATE_TEST_SUITE_P(models, label_poles_of_model,
                          testing::Values("fandisk.off.gz", "rocker_arm.obj.gz", "three_holes.off.gz",
                                          "stanford_bunny.obj.gz", "stanford_dragon_res4.ply.gz"));
+
+std::size_t samples_in_no_ball(const geometry::Balls& balls, std::size_t samples) {
+  std::vector<bool> covered(samples, false);
+  for (const std::int32_t s : balls.defining_samples) covered[at(s)] = true;
+  return static_cast<std::size_t>(std::count(covered.begin(), covered.end(), false));
+}
+
+// Samples whose farthest vertex and the farthest behind it are both labelled outer.
+std::size_t without_inner_pole_of_two(const PoleSet& poles) {
+  return static_cast<std::size_t>(
+      std::count_if(poles.sample_poles.begin(), poles.sample_poles.end(), [&](const auto& own) {
+        return poles.labels[at(own[0])] == outer && poles.labels[at(own[1])] == outer;
+      }));
+}
+
+TEST(label_poles, of_a_smooth_solid_are_the_first_two_of_every_sample) {
+  for (const Mesh& smooth : {test::torus(120, 50, 0.3), test::sphere(4)}) {
+    const PoleSet poles = voronoi_poles(smooth.points(), {});
+    const LabelledPoles result = label(poles, smooth.mesh());
+    EXPECT_EQ(result.poles.centers, poles.centers);  // no candidates
+    EXPECT_EQ(result.poles.sample_poles, poles.sample_poles);
+    for (const auto& own : result.poles.sample_poles) {
+      EXPECT_NE(result.poles.labels[at(own[0])], result.poles.labels[at(own[1])]);
+      EXPECT_EQ(own[2], -1);
+    }
+  }
+}
+
+TEST(label_poles, give_every_sample_of_cubes_side_by_side_an_inner_ball) {
+  // The cells of edges and corners that face another cube are bounded outside too.
+  Mesh cubes;
+  for (unsigned i = 0; i < 8; ++i) {
+    const Vec3 place{(i & 1) != 0 ? 1.7 : -1.7, (i & 2) != 0 ? 1.6 : -1.6, (i & 4) != 0 ? 1.5 : -1.5};
+    cubes.add(test::lattice_cube(6, 0.3, i).move(place));
+  }
+  const LabelledPoles result = label(voronoi_poles(cubes.points(), {}), cubes.mesh());
+  EXPECT_EQ(samples_in_no_ball(result.inner, cubes.vertices.size()), 0U);
+  EXPECT_GT(without_inner_pole_of_two(result.poles), 0U);
+}
+
+TEST(label_poles, give_nearly_every_sample_of_a_sharp_wedge_an_inner_ball) {
+  struct Case {
+    double thickness, jitter;
+    std::size_t most;  // cells of these samples have no vertex inside: they are cut off by the other face
+  };
+  for (const auto& [thickness, jitter, most] : {Case{0.5, 0.1, 0}, Case{0.2, 0.1, 2}, Case{0.1, 0.1, 12}}) {
+    const Mesh wedge = test::lattice_wedge(12, thickness, jitter);
+    const LabelledPoles result = label(voronoi_poles(wedge.points(), {}), wedge.mesh());
+    EXPECT_LE(samples_in_no_ball(result.inner, wedge.vertices.size()), most) << "thickness " << thickness;
+    EXPECT_GT(without_inner_pole_of_two(result.poles), 5 * most);
+  }
+}
+
+class label_poles_of_sharp_model : public testing::TestWithParam<std::pair<const char*, std::size_t>> {};
+
+TEST_P(label_poles_of_sharp_model, give_nearly_every_sample_an_inner_ball) {
+  const auto [name, most] = GetParam();
+  const auto path = test::data_file(std::string("models/") + name);
+  if (path.empty()) GTEST_SKIP() << name << " is not there";
+  const geometry::MeshFile model = geometry::read_mesh_file(path);
+  const PoleSet poles = voronoi_poles(model.points, {});
+  const LabelledPoles result = label(poles, model.mesh);
+  const std::size_t missing = samples_in_no_ball(result.inner, model.points.points.size());
+  EXPECT_LE(missing, most);
+  const std::size_t without = without_inner_pole_of_two(result.poles);
+  EXPECT_GT(without, 20 * missing);
+  RecordProperty("samples_in_no_inner_ball", static_cast<int>(missing));
+
+  // The third pole is the farthest: what is farther in the cell is on the side of the first.
+  std::vector<std::vector<std::size_t>> cell(poles.sample_poles.size());
+  for (std::size_t i = 0; i < poles.size(); ++i) {
+    for (const std::int32_t s : samples_of(poles, i)) cell[at(s)].push_back(i);
+  }
+  std::size_t budget = 5000000 / model.mesh.triangles.size(), compared = 0;
+  for (std::size_t s = 0; s < cell.size(); s += 7) {
+    const auto& own = result.poles.sample_poles[s];
+    const std::uint8_t first = result.poles.labels[at(own[0])];
+    if (first != result.poles.labels[at(own[1])]) continue;
+    const double reach = own[2] < 0 ? 0 : result.poles.radii[at(own[2])];
+    for (const std::size_t i : cell[s]) {
+      if (poles.radii[i] <= reach || poles.unbounded[i] == 1 || budget == 0) continue;
+      --budget;
+      const double winding = brute_force_winding(model.mesh, poles.centers[i]);
+      if (std::abs(winding - 0.5) < 1e-6) continue;
+      EXPECT_EQ(winding > 0.5 ? inner : outer, first) << "sample " << s << ", vertex " << i;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(models, label_poles_of_sharp_model,
+                         testing::Values(std::pair("fandisk.off.gz", std::size_t{0}),
+                                         std::pair("anchor_dense.off.gz", std::size_t{0}),
+                                         std::pair("stanford_dragon_res3.ply.gz", std::size_t{11})));
 
 TEST(label_poles, of_the_open_bunny_by_generalized_winding_number) {
   const auto path = test::data_file("models/stanford_bunny.obj.gz");

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 #include <string>
 #include <vector>
@@ -21,11 +22,22 @@ PoleSet valid() {
   poles.defining_offsets = {0, 4, 6};
   poles.defining_samples = {0, 1, 2, 3, 1, 4};
   poles.unbounded = {0, 1};
-  poles.sample_poles = {{0, -1}, {1, 0}, {0, -1}, {0, -1}, {1, -1}};
+  poles.sample_poles = {{0, -1, -1}, {1, 0, -1}, {0, -1, -1}, {0, -1, -1}, {1, -1, -1}};
   return poles;
 }
 
 TEST(pole_set, that_is_valid_has_no_broken_invariant) { EXPECT_EQ(broken_invariant(valid()), ""); }
+
+TEST(pole_set, may_have_third_poles_and_unlabelled_candidates) {
+  PoleSet poles = valid();
+  poles.sample_poles = {{0, -1, -1}, {1, -1, 0}, {0, -1, -1}, {0, -1, -1}, {1, -1, -1}};
+  EXPECT_EQ(broken_invariant(poles), "");
+  EXPECT_EQ(geometry::is_pole(poles), (std::vector<std::uint8_t>{1, 1}));
+  poles.labels = {0, 0};
+  poles.sample_poles = {{-1, -1, -1}, {1, -1, -1}, {-1, -1, -1}, {-1, -1, -1}, {1, -1, -1}};
+  EXPECT_EQ(broken_invariant(poles), "");
+  EXPECT_EQ(geometry::is_pole(poles), (std::vector<std::uint8_t>{0, 1}));
+}
 
 TEST(pole_set, names_the_broken_invariant) {
   const auto broken = [](auto damage) {
@@ -50,20 +62,30 @@ TEST(pole_set, names_the_broken_invariant) {
   expect("sample 7 of 5", [](PoleSet& p) { p.defining_samples = {0, 1, 2, 7, 1, 4}; });
   expect("do not ascend", [](PoleSet& p) { p.defining_samples = {0, 2, 1, 3, 1, 4}; });
   expect("out of order", [](PoleSet& p) { p.defining_samples = {0, 1, 2, 3, 0, 1}; });
-  expect("sample 0 has pole 2 of 2", [](PoleSet& p) {
-    p.sample_poles = {{2, -1}, {1, 0}, {0, -1}, {0, -1}, {1, -1}};
+  const auto expect_of_poles = [&](const char* what, std::size_t sample, std::array<std::int32_t, 3> own) {
+    expect(what, [&](PoleSet& p) {
+      std::vector<std::array<std::int32_t, 3>> changed(p.sample_poles.begin(), p.sample_poles.end());
+      changed[sample] = own;
+      p.sample_poles = changed;
+    });
+  };
+  expect_of_poles("sample 0 has pole 2 of 2", 0, {2, -1, -1});
+  expect_of_poles("sample 0 has pole 1, which it does not define", 0, {1, -1, -1});
+  expect_of_poles("second pole but no first", 0, {-1, 0, -1});
+  expect_of_poles("same pole on both sides", 1, {1, 1, -1});
+  expect_of_poles("third pole on the side of its others", 0, {0, -1, 0});
+  expect_of_poles("third pole on the side of its others", 1, {1, 0, 0});
+  expect("third pole before all are labelled", [](PoleSet& p) {
+    p.labels = {0, 0};
+    p.sample_poles = {{0, -1, -1}, {1, -1, 0}, {0, -1, -1}, {0, -1, -1}, {1, -1, -1}};
   });
-  expect("which it does not define", [](PoleSet& p) {
-    p.sample_poles = {{1, -1}, {1, 0}, {0, -1}, {0, -1}, {1, -1}};
-  });
-  expect("second pole but no first", [](PoleSet& p) {
-    p.sample_poles = {{-1, 0}, {1, 0}, {0, -1}, {0, -1}, {1, -1}};
-  });
-  expect("same pole on both sides", [](PoleSet& p) {
-    p.sample_poles = {{0, -1}, {1, 1}, {0, -1}, {0, -1}, {1, -1}};
-  });
-  expect("pole 1 is the pole of no sample", [](PoleSet& p) {
-    p.sample_poles = {{0, -1}, {0, -1}, {0, -1}, {0, -1}, {-1, -1}};
+  const std::vector<std::array<std::int32_t, 3>> without_pole_0 = {
+      {-1, -1, -1}, {1, -1, -1}, {-1, -1, -1}, {-1, -1, -1}, {1, -1, -1}};
+  expect("pole 0 is the pole of no sample, and labelled",
+         [&](PoleSet& p) { p.sample_poles = without_pole_0; });
+  expect("pole 1 is the pole of no sample, and unbounded", [](PoleSet& p) {
+    p.labels = {0, 0};
+    p.sample_poles = {{0, -1, -1}, {0, -1, -1}, {0, -1, -1}, {0, -1, -1}, {-1, -1, -1}};
   });
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -101,6 +102,89 @@ inline Mesh torus(int around, int across, double tube) {
     }
   }
   return mesh;
+}
+
+// A mesh of lattice points with equal points welded; which way its triangles face is left open.
+class LatticeMesh {
+ public:
+  using Cell = std::array<int, 3>;
+  void add_triangle(Cell a, Cell b, Cell c) { triangles_.push_back({vertex(a), vertex(b), vertex(c)}); }
+  void add_quad(Cell a, Cell b, Cell c, Cell d) {
+    add_triangle(a, b, c);
+    add_triangle(a, c, d);
+  }
+  template <class Place>
+  Mesh placed(const Place& place) const {
+    Mesh mesh;
+    mesh.triangles = triangles_;
+    mesh.vertices.resize(vertices_.size());
+    for (const auto& [cell, id] : vertices_) mesh.vertices[static_cast<std::size_t>(id)] = place(cell);
+    return mesh;
+  }
+
+ private:
+  std::int32_t vertex(Cell cell) {
+    return vertices_.try_emplace(cell, static_cast<std::int32_t>(vertices_.size())).first->second;
+  }
+  std::map<Cell, std::int32_t> vertices_;
+  std::vector<Triangle> triangles_;
+};
+
+// A coordinate moved by up to `jitter` cells where it is not at an end of [0, last].
+class Jitter {
+ public:
+  Jitter(double jitter, unsigned seed) : jitter_(jitter), random_(seed) {}
+  double operator()(int i, int last) {
+    const double unit = static_cast<double>(random_()) / 2147483648.0 - 1;
+    return i == 0 || i == last ? i : i + jitter_ * unit;
+  }
+
+ private:
+  double jitter_;
+  std::mt19937 random_;
+};
+
+// [-1, 1]^3 with n x n quads on every face. Samples of faces are moved in them, those of edges along them.
+inline Mesh lattice_cube(int n, double jitter, unsigned seed) {
+  LatticeMesh lattice;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      for (const int k : {0, n}) {
+        lattice.add_quad({i, j, k}, {i + 1, j, k}, {i + 1, j + 1, k}, {i, j + 1, k});
+        lattice.add_quad({k, i, j}, {k, i + 1, j}, {k, i + 1, j + 1}, {k, i, j + 1});
+        lattice.add_quad({j, k, i}, {j, k, i + 1}, {j + 1, k, i + 1}, {j + 1, k, i});
+      }
+    }
+  }
+  Jitter move(jitter, seed);
+  return lattice.placed([&](std::array<int, 3> cell) {
+    const double x = move(cell[0], n), y = move(cell[1], n), z = move(cell[2], n);
+    return Vec3{2 * x / n - 1, 2 * y / n - 1, 2 * z / n - 1};
+  });
+}
+
+// A prism of height 1 over the triangle (0, 0), (1, -t/2), (1, t/2): a wedge, sharp at the z axis. Samples
+// are moved in the direction of z.
+inline Mesh lattice_wedge(int n, double thickness, double jitter) {
+  LatticeMesh lattice;  // (i, j, k), 0 <= j <= i
+  for (int i = 0; i < n; ++i) {
+    for (int k = 0; k < n; ++k) {
+      lattice.add_quad({i, 0, k}, {i + 1, 0, k}, {i + 1, 0, k + 1}, {i, 0, k + 1});
+      lattice.add_quad({i, i, k}, {i + 1, i + 1, k}, {i + 1, i + 1, k + 1}, {i, i, k + 1});
+      lattice.add_quad({n, i, k}, {n, i + 1, k}, {n, i + 1, k + 1}, {n, i, k + 1});
+    }
+    for (const int k : {0, n}) {
+      for (int j = 0; j <= i; ++j) {
+        lattice.add_triangle({i, j, k}, {i + 1, j, k}, {i + 1, j + 1, k});
+        if (j < i) lattice.add_triangle({i, j, k}, {i + 1, j + 1, k}, {i, j + 1, k});
+      }
+    }
+  }
+  Jitter move(jitter, 17);
+  return lattice.placed([&](std::array<int, 3> cell) {
+    const double x = static_cast<double>(cell[0]) / n, z = move(cell[2], n) / n;
+    return Vec3{x, thickness * (static_cast<double>(cell[1]) / n - x / 2), z};
+  });
 }
 
 }  // namespace ballflow::test

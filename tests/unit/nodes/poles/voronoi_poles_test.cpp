@@ -33,6 +33,7 @@ PoleSet poles_of(const PointSet& points) {
   PoleSet poles = voronoi_poles(points, {});
   EXPECT_EQ(geometry::broken_invariant(poles), "");
   EXPECT_EQ(poles.sample_poles.size(), points.points.size());
+  for (const auto& own : poles.sample_poles) EXPECT_EQ(own[2], -1);
   return poles;
 }
 
@@ -298,6 +299,48 @@ void compare_with_brute_force(const PointSet& sample, int& compared) {
     EXPECT_LE(poles.radii[at(pair[1])], most + 1e-9);
     compared += 2;
   }
+}
+
+// Candidates are the vertices behind first poles that second poles are not opposite to.
+void compare_candidates_with_brute_force(const PointSet& sample, int& compared) {
+  const PoleSet poles = poles_of(sample);
+  const std::vector<std::uint8_t> is_pole = geometry::is_pole(poles);
+  std::set<std::vector<std::int32_t>> candidates, listed;
+  for (const std::size_t i : bounded(poles)) {
+    listed.insert(samples_of(poles, i));
+    if (is_pole[i] == 0) candidates.insert(samples_of(poles, i));
+  }
+  const geometry::Box box = geometry::bounding_box(sample.points.span());
+  const Vec3 middle = 0.5 * (box.lower + box.upper);
+  for (const BruteVertex& v : brute_force_vertices(sample)) {
+    if (distance(v.center, middle) + v.radius > 9.9 * box.longest_edge()) continue;
+    bool expected = false, doubtful = false;
+    for (const std::int32_t s : v.samples) {
+      const Vec3 p = sample.points[at(s)];
+      const auto& own = poles.sample_poles[at(s)];
+      const Vec3 first = poles.centers[at(own[0])] - p, second = poles.centers[at(own[1])] - p;
+      const double angle = std::acos(dot(first, second) / (length(first) * length(second)));
+      const double behind = dot(v.center - p, first) / (length(v.center - p) * length(first));
+      if (std::abs(std::cos(angle) + 0.75) < 1e-9 || std::abs(behind) < 1e-9) doubtful = true;
+      if (angle < std::acos(-0.75) && behind < 0) expected = true;
+    }
+    if (doubtful) continue;
+    if (expected) {
+      EXPECT_TRUE(listed.count(v.samples) == 1) << "a vertex of radius " << v.radius << " is missing";
+    } else {
+      EXPECT_TRUE(candidates.count(v.samples) == 0) << "a vertex of radius " << v.radius << " is too much";
+    }
+    if (expected) ++compared;
+  }
+}
+
+TEST(voronoi_poles, come_with_candidates_where_they_are_not_opposite) {
+  int compared = 0;
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    compare_candidates_with_brute_force(random_points(seed, 30), compared);
+    compare_candidates_with_brute_force(random_lattice_points(seed, 26, 3), compared);
+  }
+  EXPECT_GT(compared, 100);
 }
 
 TEST(voronoi_poles, are_those_of_all_empty_circumspheres) {

@@ -158,7 +158,7 @@ geometry::PoleSet sample_poles() {
   poles.defining_offsets = {0, 4, 8};
   poles.defining_samples = {0, 1, 2, 3, 1, 2, 3, 4};
   poles.unbounded = {0, 0};
-  poles.sample_poles = {{0, -1}, {1, 0}, {1, -1}, {0, 1}, {1, -1}};
+  poles.sample_poles = {{0, -1, -1}, {1, 0, -1}, {1, -1, -1}, {0, 1, -1}, {1, -1, -1}};
   return poles;
 }
 
