@@ -51,9 +51,8 @@ void TypeOf<geometry::PoleSet>::declare(TypeDecl<geometry::PoleSet>& d) {
   using T = geometry::PoleSet;
   d.id("PoleSet", 1)
       .doc(
-          "Voronoi vertices that are poles of a sample, or candidates for its third pole, and the poles of "
-          "every "
-          "sample.");
+          "Voronoi vertices that are poles of samples, or candidates for third poles, and the poles of "
+          "samples.");
   d.array("centers", &T::centers).length("p").doc("Voronoi vertices, model units");
   d.array("radii", &T::radii).length("p").doc("distance to the defining samples, model units");
   d.array("labels", &T::labels).length("p").doc("0 unlabelled, 1 inner, 2 outer");
@@ -65,9 +64,8 @@ void TypeOf<geometry::PoleSet>::declare(TypeDecl<geometry::PoleSet>& d) {
   d.array("sample_poles", &T::sample_poles)
       .length("n")
       .doc(
-          "poles of each sample, -1 for none: the farthest vertex of its cell, the farthest behind it, "
-          "and, "
-          "where labels say that both are on one side of the surface, the farthest on the other");
+          "poles of each sample, -1 for none: the farthest vertex of its cell, the farthest behind it, and, "
+          "where the labels of both are the same, the farthest with the other label");
   d.summary("samples", "number of samples").summary("poles", "number of distinct poles");
   d.summary("candidates", "vertices that are no pole; LabelPoles chooses third poles among them");
   d.summary("inner", "poles labelled inner").summary("outer", "poles labelled outer");
