@@ -188,6 +188,9 @@ class Host {
     } catch (const std::bad_alloc&) {
       fail("out of memory while output \"" + port + "\" was sealed",
            "use a smaller input or a machine with more memory");
+    } catch (const std::exception& error) {  // none may cross the boundary
+      fail("output \"" + port + "\" cannot be sealed: " + error.what(),
+           "this is a bug of the node; please report it");
     }
     return 1;
   }

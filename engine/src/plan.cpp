@@ -14,6 +14,17 @@ std::vector<bool> needed_nodes(const Dag& dag) {
   return needed;
 }
 
+std::optional<ActionEntry> find_entry(Store& store, const NodeDeclaration& decl, const Digest& key) {
+  std::optional<ActionEntry> entry = store.find_action(key);
+  const auto gives = [&entry](const PortDecl& port) {
+    return std::any_of(entry->outputs.begin(), entry->outputs.end(), [&port](const OutputEntry& output) {
+      return output.port == port.name && output.type == port.type && output.type_version == port.type_version;
+    });
+  };
+  if (entry && !std::all_of(decl.outputs.begin(), decl.outputs.end(), gives)) entry.reset();
+  return entry;
+}
+
 std::vector<NodePlan> plan(const Dag& dag, Store& store, std::uint64_t seed, const Manifests& earlier) {
   using Verdict = NodePlan::Verdict;
   const std::size_t n = dag.nodes.size();
@@ -46,7 +57,7 @@ std::vector<NodePlan> plan(const Dag& dag, Store& store, std::uint64_t seed, con
       continue;
     }
     const ActionKey key = action_key(node, inputs, seed, store);
-    entries[i] = store.find_action(key.key);
+    entries[i] = find_entry(store, *node.decl, key.key);
     if (entries[i]) {
       plan.verdict = Verdict::hit;
       plan.reason = "same inputs and parameters";

@@ -34,6 +34,12 @@ Json outputs_json(const std::vector<OutputEntry>& outputs) {
   return json;
 }
 
+/// Foreign text (warnings of nodes, names of files) need not be UTF-8; it must not cost the record.
+template <class AnyJson>
+std::string text_of(const AnyJson& json, int indent) {
+  return json.dump(indent, ' ', false, AnyJson::error_handler_t::replace);
+}
+
 }  // namespace
 
 std::string_view to_string(ExitCode status) {
@@ -64,6 +70,9 @@ Json run_report(const std::string& id, const Dag& dag, const RunResult& result) 
   report["params"] = Json::object();
   for (const auto& [name, value] : dag.params) report["params"][name] = value;
   Json nodes = Json::object();
+  // Appended unseen, because paths are unique and ordered_json would look for each by linear search.
+  auto& members = nodes.get_ref<Json::object_t&>();
+  members.reserve(dag.nodes.size());
   for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
     const DagNode& node = dag.nodes[i];
     const NodeResult& r = result.nodes[i];
@@ -77,7 +86,7 @@ Json run_report(const std::string& id, const Dag& dag, const RunResult& result) 
     json["outputs"] = outputs_json(r.outputs);
     if (!r.warnings.empty()) json["warnings"] = r.warnings;
     if (r.status == NodeStatus::failed) json["error"] = {{"cause", r.cause}, {"hint", r.hint}};
-    nodes[node.path] = std::move(json);
+    members.emplace_back(node.path, std::move(json));
   }
   report["nodes"] = std::move(nodes);
   Json outputs = Json::object();
@@ -87,7 +96,7 @@ Json run_report(const std::string& id, const Dag& dag, const RunResult& result) 
       if (entry.port != output.from.port) continue;
       Json one = outputs_json({entry})[entry.port];
       one["from"] = dag.nodes[output.from.node].path + "." + output.from.port;
-      outputs[output.name] = std::move(one);
+      outputs.get_ref<Json::object_t&>().emplace_back(output.name, std::move(one));
     }
   }
   report["outputs"] = std::move(outputs);
@@ -101,7 +110,7 @@ Manifests load_manifests(Store& store, const std::string& graph_file) {
   if (!in) return manifests;
   std::ostringstream text;
   text << in.rdbuf();
-  const Json json = Json::parse(text.str(), nullptr, false);
+  const auto json = nlohmann::json::parse(text.str(), nullptr, false);
   if (!json.is_object()) return manifests;
   for (const auto& [path, manifest] : json.items()) {
     if (manifest.is_string()) manifests[path] = manifest.get<std::string>();
@@ -112,7 +121,7 @@ Manifests load_manifests(Store& store, const std::string& graph_file) {
 void save_latest(Store& store, const std::string& graph_file, const RunResult& result, const Dag& dag,
                  const Json& report) {
   if (store.root().empty() || store.read_only()) return;
-  Json manifests = Json::object();
+  auto manifests = nlohmann::json::object();  // not ordered_json: that looks a name up by linear search
   for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
     const NodeResult& node = result.nodes[i];
     if (!node.manifest.empty()) manifests[dag.nodes[i].path] = node.manifest;
@@ -122,8 +131,8 @@ void save_latest(Store& store, const std::string& graph_file, const RunResult& r
   fs::create_directories(folder, error);
   if (error) return;
   try {
-    write_atomically((folder / "manifests.json").string(), manifests.dump());
-    write_atomically((folder / "report.json").string(), report.dump(1));
+    write_atomically((folder / "manifests.json").string(), text_of(manifests, -1));
+    write_atomically((folder / "report.json").string(), text_of(report, 1));
   } catch (const Error&) {
     // A full disk costs reasons of the next run, not this run.
   }

@@ -6,11 +6,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <mutex>
+#include <set>
 #include <thread>
 
 #include "ballflow/run.hpp"
 #include "node_run.hpp"
+#include "quote.hpp"
 
 namespace ballflow {
 namespace {
@@ -55,6 +58,9 @@ constexpr double sync_seconds = 1.0;
 /// from the old one are void.
 struct PlanIsVoid {};
 
+/// Thrown when an artifact that had to be computed again was not, because nobody wants results any more.
+struct Stopped {};
+
 const OutputEntry* find_output(const std::vector<OutputEntry>& outputs, const std::string& port) {
   for (const OutputEntry& output : outputs) {
     if (output.port == port) return &output;
@@ -95,6 +101,7 @@ class Runner::Impl {
     if (options_.threads == 0) options_.threads = std::max(1u, std::thread::hardware_concurrency());
     if (options_.memory_bytes == 0) options_.memory_bytes = physical_memory() / 10 * 8;
     result_.nodes.resize(dag.nodes.size());
+    for (const DagOutput& output : dag.outputs) wanted_.emplace(output.from.node, output.from.port);
   }
 
   const RunResult& run() {
@@ -107,7 +114,7 @@ class Runner::Impl {
     for (std::size_t round = 0; !run_once(); ++round) {
       if (round < dag_.nodes.size()) continue;
       for (NodeResult& node : result_.nodes) {
-        if (node.status == NodeStatus::hit || node.status == NodeStatus::run) continue;
+        if (node.status != NodeStatus::pending && node.status != NodeStatus::cancelled) continue;
         node.status = NodeStatus::failed;
         node.cause = "needs the output of a node that gives another result whenever it runs";
         node.hint = "make that node deterministic: see the warnings above";
@@ -138,6 +145,9 @@ class Runner::Impl {
       throw Error(ExitCode::node_failed,
                   dag_.nodes[output.node].path + " gave another result when it was run again",
                   "the node is not deterministic; run the command again to compute what depends on it anew");
+    } catch (const Stopped&) {
+      throw Error(ExitCode::cancelled,
+                  "cancelled while " + dag_.nodes[output.node].path + " was run again for its output");
     }
   }
 
@@ -161,9 +171,13 @@ class Runner::Impl {
   }
   bool stopping() const { return cancelled() || stop_.load(std::memory_order_relaxed); }
 
-  void emit(const Event& event) {
+  /// What goes wrong while events are shown must not cost the results.
+  void emit(const Event& event) noexcept {
     const std::lock_guard lock(events_mutex_);
-    events_.on(event);
+    try {
+      events_.on(event);
+    } catch (...) {
+    }
   }
 
   /// False when the plan became void and everything has to be looked at again.
@@ -189,10 +203,7 @@ class Runner::Impl {
         result_.nodes[i].reason = "no output of the graph needs it";
         continue;
       }
-      std::vector<std::size_t> producers;
-      for (const auto& [port, edge] : dag_.nodes[i].inputs) producers.push_back(edge.node);
-      std::sort(producers.begin(), producers.end());
-      producers.erase(std::unique(producers.begin(), producers.end()), producers.end());
+      const std::vector<std::size_t> producers = producers_of(i);
       states_[i]->inputs_missing = producers.size();
       for (const std::size_t producer : producers) {
         states_[producer]->consumers.push_back(i);
@@ -231,6 +242,8 @@ class Runner::Impl {
       void_ = true;
       stop_ = true;
       settle(i, NodeStatus::cancelled, "");
+    } catch (const Stopped&) {
+      settle(i, NodeStatus::cancelled, "the run was cancelled");
     } catch (const Error& error) {
       result_.nodes[i].cause = error.what();
       result_.nodes[i].hint = error.hint();
@@ -242,6 +255,10 @@ class Runner::Impl {
     } catch (const std::exception& error) {
       result_.nodes[i].cause = error.what();
       settle(i, NodeStatus::failed, "");
+    } catch (...) {
+      result_.nodes[i].cause = "the node threw something that is no exception of the standard library";
+      result_.nodes[i].hint = "this is a bug of the node; please report it";
+      settle(i, NodeStatus::failed, "");
     }
   }
 
@@ -252,22 +269,25 @@ class Runner::Impl {
     if (stop_starting_) return;  // stays pending, becomes skipped
 
     if (!state.key) {
-      std::map<std::string, OutputEntry> inputs;
-      for (const auto& [port, edge] : node.inputs)
-        inputs[port] = *find_output(result_.nodes[edge.node].outputs, edge.port);
-      state.key = action_key(node, inputs, options_.seed, *store_);
+      state.key = key_of(node);
       result_.nodes[i].manifest = state.key->manifest;
-      const std::lock_guard lock(mutex_);
-      const auto [flight, first] = flights_.try_emplace(state.key->key, Flight{i, {}});
-      if (!first) {
-        const std::size_t leader = flight->second.leader;
-        if (result_.nodes[leader].status == NodeStatus::pending) {
-          flight->second.followers.push_back(i);  // single-flight: one computation, two nodes
-          return;
+      std::optional<std::size_t> done;
+      {
+        const std::lock_guard lock(mutex_);
+        const auto [flight, first] = flights_.try_emplace(state.key->key, Flight{i, {}});
+        if (!first) {
+          const std::size_t leader = flight->second.leader;
+          const NodeStatus status = result_.nodes[leader].status;
+          if (status == NodeStatus::pending) {
+            flight->second.followers.push_back(i);  // single-flight: one computation, two nodes
+            return;
+          }
+          if (status == NodeStatus::run || status == NodeStatus::hit) done = leader;
         }
       }
+      if (done) return follow(i, *done);
     }
-    if (const auto entry = find_entry(state.key->key)) return adopt(i, *entry, "same inputs and parameters");
+    if (const auto entry = entry_of(i)) return adopt(i, *entry, "same inputs and parameters");
 
     if (!admit(i)) return;  // dispatched again when memory is free
     emit({Event::Kind::node_started, i, 0, false, {}, nullptr});
@@ -276,7 +296,7 @@ class Runner::Impl {
     try {
       // Another process may be computing the same key; then its result becomes a hit here.
       const auto lock = store_->lock(state.key->key, [this] { return stopping(); });
-      meanwhile = find_entry(state.key->key);
+      meanwhile = entry_of(i);
       if (!meanwhile && !stopping()) status = compute(i);
     } catch (...) {
       dismiss(i);
@@ -288,12 +308,33 @@ class Runner::Impl {
   }
 
   /// From this run, else from the store.
-  std::optional<ActionEntry> find_entry(const Digest& key) {
+  std::optional<ActionEntry> entry_of(std::size_t i) {
+    const Digest& key = states_[i]->key->key;
     {
       const std::lock_guard lock(mutex_);
       if (const auto found = replaced_.find(key); found != replaced_.end()) return found->second;
     }
-    return store_->find_action(key);
+    return find_entry(*store_, *dag_.nodes[i].decl, key);
+  }
+
+  ActionKey key_of(const DagNode& node) {
+    std::map<std::string, OutputEntry> inputs;
+    for (const auto& [port, edge] : node.inputs)
+      inputs[port] = *find_output(result_.nodes[edge.node].outputs, edge.port);
+    return action_key(node, inputs, options_.seed, *store_);
+  }
+
+  /// The key was made from the content of files before the node read them. What was computed from a file that
+  /// changed in between must not be found under the key of the former content.
+  void check_files(std::size_t i) {
+    const DagNode& node = dag_.nodes[i];
+    for (const ParamDecl& param : node.decl->params) {
+      if (param.kind != ParamKind::file || !param.hashed) continue;
+      if (key_of(node).key == states_[i]->key->key) return;
+      throw Error(ExitCode::node_failed,
+                  plain_text(node.params.at(param.name)) + " changed while the run was reading it",
+                  "wait until its writer is done, then run again");
+    }
   }
 
   /// Takes the estimate of the node's memory from the budget; false: put aside until a node has ended.
@@ -360,6 +401,7 @@ class Runner::Impl {
       result.hint = outcome.hint;
       return outcome.status == NodeRunOutcome::Status::failed ? NodeStatus::failed : NodeStatus::cancelled;
     }
+    check_files(i);
     result.outputs = publish(i, outcome);
     const std::lock_guard lock(state.mutex);
     state.held = outcome.outputs;
@@ -398,7 +440,8 @@ class Runner::Impl {
     const std::int64_t now = duration_cast<milliseconds>(Clock::now().time_since_epoch()).count();
     std::int64_t last = states_[i]->last_progress.load(std::memory_order_relaxed);
     if (now - last < 50 || !states_[i]->last_progress.compare_exchange_strong(last, now)) return;
-    emit({Event::Kind::node_progress, i, std::clamp(fraction, 0.0, 1.0), false, {}, nullptr});
+    const double shown = std::isnan(fraction) ? 0 : std::clamp(fraction, 0.0, 1.0);
+    emit({Event::Kind::node_progress, i, shown, false, {}, nullptr});
   }
 
   /// Stores the artifacts of a finished node and then its entry.
@@ -443,11 +486,13 @@ class Runner::Impl {
 
     emit({Event::Kind::node_started, edge.node, 0, false, {}, nullptr});
     const NodeRunOutcome outcome = execute(edge.node);
+    if (outcome.status == NodeRunOutcome::Status::cancelled) throw Stopped();
     if (outcome.status != NodeRunOutcome::Status::ok) {
       throw Error(ExitCode::node_failed,
                   dag_.nodes[edge.node].path + " had to be run again and failed: " + outcome.cause,
                   outcome.hint);
     }
+    check_files(edge.node);
     const bool equal = std::all_of(result.outputs.begin(), result.outputs.end(), [&](const OutputEntry& o) {
       const auto made = outcome.outputs.find(o.port);
       return made != outcome.outputs.end() && made->second->digest() == o.digest;
@@ -480,52 +525,64 @@ class Runner::Impl {
 
   /// The node has its final status: tells followers and consumers, frees what nobody needs any more.
   void settle(std::size_t i, NodeStatus status, const std::string& reason) {
-    std::vector<std::size_t> followers, ready, done_with;
     {
       const std::lock_guard lock(mutex_);
-      NodeResult& result = result_.nodes[i];
-      result.status = status;
-      result.reason = reason;
+      result_.nodes[i].status = status;
+      result_.nodes[i].reason = reason;
       if (status == NodeStatus::failed) stop_starting_ = true;
+    }
+    // Before any consumer can start: one that needs the artifact again writes to the result.
+    emit({Event::Kind::node_finished, i, 1, false, {}, &result_.nodes[i]});
+
+    std::vector<std::size_t> followers, ready, done_with;
+    const bool good = status == NodeStatus::hit || status == NodeStatus::run;
+    {
+      const std::lock_guard lock(mutex_);
       if (states_[i]->key) {
         const auto flight = flights_.find(states_[i]->key->key);
         if (flight != flights_.end() && flight->second.leader == i) followers.swap(flight->second.followers);
       }
-      const bool good = status == NodeStatus::hit || status == NodeStatus::run;
       for (const std::size_t consumer : states_[i]->consumers) {
         if (good && --states_[consumer]->inputs_missing == 0) ready.push_back(consumer);
       }
-      std::vector<std::size_t> producers;
-      for (const auto& [port, edge] : dag_.nodes[i].inputs) producers.push_back(edge.node);
-      std::sort(producers.begin(), producers.end());
-      producers.erase(std::unique(producers.begin(), producers.end()), producers.end());
-      for (const std::size_t producer : producers) {
+      for (const std::size_t producer : producers_of(i)) {
         if (--states_[producer]->consumers_left == 0) done_with.push_back(producer);
       }
-      if (states_[i]->consumers_left == 0) done_with.push_back(i);
     }
-    emit({Event::Kind::node_finished, i, 1, false, {}, &result_.nodes[i]});
     for (const std::size_t follower : followers) {
-      const NodeResult& leader = result_.nodes[i];
-      NodeResult& result = result_.nodes[follower];
-      result.outputs = leader.outputs;
-      result.warnings = leader.warnings;
-      result.cause = leader.cause;
-      result.hint = leader.hint;
-      if (status == NodeStatus::run || status == NodeStatus::hit) {
-        {
-          const std::scoped_lock lock(states_[i]->mutex, states_[follower]->mutex);
-          states_[follower]->held = states_[i]->held;
-        }
-        settle(follower, NodeStatus::hit, "same computation as " + dag_.nodes[i].path);
-      } else {
-        settle(follower, status, reason);
+      if (good) {
+        follow(follower, i);
+        continue;
       }
+      result_.nodes[follower].cause = result_.nodes[i].cause;
+      result_.nodes[follower].hint = result_.nodes[i].hint;
+      settle(follower, status, reason);
     }
+    if (states_[i]->consumers.empty()) done_with.push_back(i);
     for (const std::size_t node : done_with) forget(node);
     for (const std::size_t consumer : ready) {
       if (!stopping() && !stop_starting_.load()) dispatch(consumer);
     }
+  }
+
+  /// Gives a node what another one with the same key has computed or found in this round.
+  void follow(std::size_t i, std::size_t leader) {
+    result_.nodes[i].outputs = result_.nodes[leader].outputs;
+    result_.nodes[i].warnings = result_.nodes[leader].warnings;
+    {
+      const std::scoped_lock lock(states_[leader]->mutex, states_[i]->mutex);
+      states_[i]->held = states_[leader]->held;
+    }
+    settle(i, NodeStatus::hit, "same computation as " + dag_.nodes[leader].path);
+  }
+
+  /// The nodes that `i` reads from, each once.
+  std::vector<std::size_t> producers_of(std::size_t i) const {
+    std::vector<std::size_t> producers;
+    for (const auto& [port, edge] : dag_.nodes[i].inputs) producers.push_back(edge.node);
+    std::sort(producers.begin(), producers.end());
+    producers.erase(std::unique(producers.begin(), producers.end()), producers.end());
+    return producers;
   }
 
   /// Drops artifacts whose last consumer is done, unless they are outputs of the graph that only memory has.
@@ -533,9 +590,7 @@ class Runner::Impl {
     State& state = *states_[i];
     const std::lock_guard lock(state.mutex);
     for (auto held = state.held.begin(); held != state.held.end();) {
-      const bool wanted = std::any_of(dag_.outputs.begin(), dag_.outputs.end(), [&](const DagOutput& output) {
-        return output.from.node == i && output.from.port == held->first;
-      });
+      const bool wanted = wanted_.count({i, held->first}) != 0;
       const OutputEntry* entry = find_output(result_.nodes[i].outputs, held->first);
       if (wanted && (entry == nullptr || !store_->has_blob(*entry))) {
         ++held;
@@ -552,7 +607,8 @@ class Runner::Impl {
   EventSink& events_;
   Manifests earlier_;
   RunResult result_;
-  const std::vector<NodeResult>* before_ = nullptr;  // of the round before, while a round is on
+  std::set<std::pair<std::size_t, std::string>> wanted_;  // outputs of the graph
+  const std::vector<NodeResult>* before_ = nullptr;       // of the round before, while a round is on
   std::vector<std::unique_ptr<State>> states_;
   tbb::task_group* group_ = nullptr;
   std::mutex mutex_, events_mutex_;

@@ -81,6 +81,10 @@ struct NodePlan {
 };
 std::vector<NodePlan> plan(const Dag& dag, Store& store, std::uint64_t seed, const Manifests& earlier);
 
+/// The entry of a key in the store. One that lacks a declared output, or has it in another version of its
+/// type, is a miss: it comes from a library whose author forgot to raise the behaviour version.
+std::optional<ActionEntry> find_entry(Store& store, const NodeDeclaration& decl, const Digest& key);
+
 /// Which nodes the outputs of the graph need; as Dag::nodes.
 std::vector<bool> needed_nodes(const Dag& dag);
 

@@ -16,10 +16,12 @@ class Silent final : public EventSink {
   void on(const Event& event) override {
     if (event.kind == Event::Kind::node_started) started.push_back(event.node);
     if (event.kind == Event::Kind::node_message) messages.push_back(event.text);
+    if (event.kind == Event::Kind::node_progress) fractions.push_back(event.fraction);
     if (event.kind == Event::Kind::node_started && on_start) on_start();
   }
   std::vector<std::size_t> started;
   std::vector<std::string> messages;
+  std::vector<double> fractions;
   std::function<void()> on_start;
 };
 
@@ -236,6 +238,134 @@ TEST_F(RunTest, a_node_that_is_never_deterministic_ends_as_a_failure_when_its_re
   std::filesystem::remove_all(folder.path() + "/cache/cas");
   dag.outputs = {{"sum", "", {sum, "sum"}}};
   EXPECT_EQ(run(dag, Store::open({folder.path() + "/cache", true})).status, ExitCode::node_failed);
+}
+
+TEST_F(RunTest, giving_up_keeps_the_verdict_on_nodes_that_nothing_needs) {
+  Dag dag;
+  const auto noisy = node(dag, "noisy", "Noisy");
+  const auto sum = node(dag, "sum", "Add", {{"a", {noisy, "numbers"}}});
+  const auto extra = node(dag, "extra", "Source");
+  dag.outputs.push_back({"noisy", "", {noisy, "numbers"}});
+  run(dag, store());
+  std::filesystem::remove_all(folder.path() + "/cache/cas");
+  dag.outputs = {{"sum", "", {sum, "sum"}}};
+  const RunResult result = run(dag, Store::open({folder.path() + "/cache", true}));
+  EXPECT_EQ(result.nodes[sum].status, NodeStatus::failed);
+  EXPECT_EQ(result.nodes[extra].status, NodeStatus::skipped);
+}
+
+TEST_F(RunTest, cancelling_while_a_lost_artifact_is_made_again_is_no_failure) {
+  Dag dag;
+  const auto source = node(dag, "source", "Source");
+  const auto slow = node(dag, "slow", "Slow", {{"numbers", {source, "numbers"}}}, {{"seconds", 0.01}});
+  const auto sum = node(dag, "sum", "Add", {{"a", {slow, "numbers"}}});
+  dag.outputs.push_back({"slow", "", {slow, "numbers"}});
+  run(dag, store());
+  std::filesystem::remove_all(folder.path() + "/cache/cas");
+  dag.outputs = {{"sum", "", {sum, "sum"}}};
+  std::atomic<bool> cancel{false};
+  events.started.clear();
+  events.on_start = [&] {
+    if (events.started.back() == slow) cancel = true;
+  };
+  RunOptions options;
+  options.cancel = &cancel;
+  Runner runner(dag, registry, store(), options, events);
+  const RunResult& result = runner.run();
+  EXPECT_EQ(result.nodes[sum].status, NodeStatus::cancelled) << result.nodes[sum].cause;
+  EXPECT_EQ(result.status, ExitCode::cancelled);
+}
+
+TEST_F(RunTest, cancelling_while_an_output_is_made_again_says_so) {
+  Dag dag;
+  const auto source = node(dag, "source", "Source");
+  const auto slow = node(dag, "slow", "Slow", {{"numbers", {source, "numbers"}}}, {{"seconds", 0.01}});
+  dag.outputs.push_back({"slow", "", {slow, "numbers"}});
+  run(dag, store());
+  std::filesystem::remove_all(folder.path() + "/cache/cas");
+  std::atomic<bool> cancel{false};
+  RunOptions options;
+  options.cancel = &cancel;
+  Runner runner(dag, registry, store(), options, events);
+  ASSERT_EQ(runner.run().status, ExitCode::ok);
+  cancel = true;
+  try {
+    runner.artifact(dag.outputs[0].from);
+    FAIL() << "the node was not cancelled";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::cancelled) << error.what();
+  }
+}
+
+TEST_F(RunTest, an_entry_without_a_declared_output_is_a_miss) {
+  // As when the author of a node adds an output and forgets to raise its behaviour version.
+  const Dag dag = diamond(1.5, 2);
+  auto cache = store();
+  const RunResult first = run(dag, cache);
+  const ActionKey key = action_key(dag.nodes[0], {}, 0, *cache);
+  ActionEntry entry = cache->find_action(key.key).value();
+  entry.outputs[0].port = "former_name";
+  ASSERT_TRUE(cache->put_action(key.key, entry));
+  EXPECT_EQ(plan(dag, *cache, 0, {})[0].verdict, NodePlan::Verdict::run);
+  const RunResult second = run(dag, cache);
+  EXPECT_EQ(second.status, ExitCode::ok);
+  EXPECT_EQ(statuses(second), (std::vector<NodeStatus>{ran, hit, hit, hit}));
+  entry.outputs[0] = first.nodes[0].outputs[0];
+  entry.outputs[0].type_version = 7;
+  ASSERT_TRUE(cache->put_action(key.key, entry));
+  EXPECT_EQ(run(dag, cache).nodes[0].status, ran);
+}
+
+TEST_F(RunTest, equal_computations_run_once_without_a_store_too) {
+  Dag dag;
+  const auto a = node(dag, "a", "Source");
+  const auto wait = node(dag, "wait", "Slow", {{"numbers", {a, "numbers"}}}, {{"seconds", 0.01}});
+  // Its key is that of "first", which has ended long before.
+  const auto first = node(dag, "first", "Round", {{"numbers", {a, "numbers"}}});
+  const auto later = node(dag, "later", "Round", {{"numbers", {wait, "numbers"}}});
+  const auto sum = node(dag, "sum", "Add", {{"a", {first, "rounded"}}, {"b", {later, "rounded"}}});
+  dag.outputs.push_back({"sum", "", {sum, "sum"}});
+  const RunResult result = run(dag, Store::open({}));
+  EXPECT_EQ(result.status, ExitCode::ok);
+  EXPECT_EQ(toy::counters.round, 1);
+  EXPECT_EQ(result.nodes[later].status, hit);
+}
+
+TEST_F(RunTest, a_file_that_changes_before_it_is_read_leaves_no_entry) {
+  Dag dag;
+  test::write_file(folder.file("number.txt"), "1");
+  const auto read = node(dag, "read", "FromFile", {}, {{"file", folder.file("number.txt")}});
+  dag.outputs.push_back({"numbers", "", {read, "numbers"}});
+  toy::FromFile::before_reading = [](const std::string& path) { test::write_file(path, "2"); };
+  const RunResult changed = run(dag, store());
+  toy::FromFile::before_reading = nullptr;
+  EXPECT_EQ(changed.nodes[read].status, NodeStatus::failed);
+  EXPECT_NE(changed.nodes[read].cause.find("number.txt"), std::string::npos) << changed.nodes[read].cause;
+  test::write_file(folder.file("number.txt"), "1");
+  const RunResult again = run(dag, store());
+  EXPECT_EQ(again.nodes[read].status, ran);
+  test::write_file(folder.file("other.txt"), "1");
+  dag.nodes[read].params["file"] = folder.file("other.txt");
+  EXPECT_EQ(run(dag, store()).nodes[read].outputs.at(0).digest, again.nodes[read].outputs.at(0).digest);
+}
+
+TEST_F(RunTest, nonsense_of_a_node_reaches_nobody_raw) {
+  Dag dag;
+  const auto babble = node(dag, "babble", "Babble");
+  dag.outputs.push_back({"numbers", "", {babble, "numbers"}});
+  auto cache = store();
+  const RunResult result = run(dag, cache);
+  EXPECT_EQ(result.status, ExitCode::ok);
+  for (const double fraction : events.fractions) EXPECT_TRUE(fraction >= 0 && fraction <= 1) << fraction;
+  const Json report = run_report("id", dag, result);
+  EXPECT_NO_THROW(save_latest(*cache, "babble.json", result, dag, report));
+  EXPECT_FALSE(load_manifests(*cache, "babble.json").empty());
+}
+
+TEST_F(RunTest, a_display_that_throws_costs_no_result) {
+  events.on_start = [] { throw std::runtime_error("the terminal is gone"); };
+  const RunResult result = run(diamond(1.5, 2), store());
+  EXPECT_EQ(result.status, ExitCode::ok);
 }
 
 TEST_F(RunTest, warnings_are_shown_again_on_a_hit) {

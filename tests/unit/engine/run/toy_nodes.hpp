@@ -3,6 +3,10 @@
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <limits>
 #include <memory>
 #include <thread>
 
@@ -195,9 +199,41 @@ struct Heavy {
   }
 };
 
+/// Gives the number in a file; the file is written to before it is read when `before_reading` is set.
+struct FromFile {
+  Out<Numbers> numbers;
+  std::string file;
+  static inline std::function<void(const std::string&)> before_reading;
+  static void declare(NodeDecl<FromFile>& d) {
+    d.id("FromFile", 1).summary("Reads a number.");
+    d.output("numbers", &FromFile::numbers).doc("the number");
+    d.param("file", &FromFile::file).file().doc("a file with a number");
+  }
+  void run(RunContext&) {
+    if (before_reading) before_reading(file);
+    double value = 0;
+    std::ifstream(file) >> value;
+    numbers = Numbers{std::vector<double>{value}};
+  }
+};
+
+/// Says nonsense: a progress that is no number, a warning that is no text.
+struct Babble {
+  Out<Numbers> numbers;
+  static void declare(NodeDecl<Babble>& d) {
+    d.id("Babble", 1).summary("Reports nonsense.");
+    d.output("numbers", &Babble::numbers).doc("a number");
+  }
+  void run(RunContext& context) {
+    context.progress(std::numeric_limits<double>::quiet_NaN());
+    context.warn("caf\xe9 \033[2J");
+    numbers = Numbers{std::vector<double>{1}};
+  }
+};
+
 inline const bf_plugin& plugin() {
   static const std::vector<const bf_node*> nodes =
-      node_entries<Source, Add, Round, Slow, Fail, Noisy, Negative, Heavy>();
+      node_entries<Source, Add, Round, Slow, Fail, Noisy, Negative, Heavy, FromFile, Babble>();
   static const std::vector<const bf_type*> types = type_entries<Numbers>();
   static const bf_plugin plugin = {sizeof(bf_plugin),  BALLFLOW_ABI_VERSION, detail::bytes("toy"),
                                    detail::bytes("1"), types.data(),         types.size(),
