@@ -13,7 +13,6 @@
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
@@ -467,23 +466,16 @@ PoleSet Diagram::poles(Monitor& monitor) const {
   });
   monitor.step(0.96);
 
-  // Order them by their defining samples; the first two in one integer decide most comparisons.
-  struct Entry {
-    std::uint64_t key;
-    std::int32_t pole;
-  };
-  std::vector<Entry> order(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto id = [&](std::int64_t k) {
-      return begin[i] + k < end[i]
-                 ? static_cast<std::uint64_t>(collected[static_cast<std::size_t>(begin[i] + k)]) + 1
-                 : 0;
-    };
-    order[i] = {id(0) << 32 | id(1), static_cast<std::int32_t>(i)};
-  }
-  tbb::parallel_sort(order.begin(), order.end(), [&](const Entry& x, const Entry& y) {
-    if (x.key != y.key) return x.key < y.key;
-    const std::size_t a = at(x.pole), b = at(y.pole);
+  // Order them by their defining samples: in buckets of the smallest one, which every vertex has, then within
+  // each bucket.
+  const auto smallest = [&](std::size_t i) { return at(collected[static_cast<std::size_t>(begin[i])]); };
+  std::vector<std::int32_t> bucket(at(samples_) + 1, 0), order(count);
+  for (std::size_t i = 0; i < count; ++i) ++bucket[smallest(i) + 1];
+  std::partial_sum(bucket.begin(), bucket.end(), bucket.begin());
+  std::vector<std::int32_t> next(bucket.begin(), bucket.end() - 1);
+  for (std::size_t i = 0; i < count; ++i) order[at(next[smallest(i)]++)] = static_cast<std::int32_t>(i);
+  const auto before = [&](std::int32_t x, std::int32_t y) {
+    const std::size_t a = at(x), b = at(y);
     const auto [ka, kb] = std::mismatch(collected.begin() + begin[a], collected.begin() + end[a],
                                         collected.begin() + begin[b], collected.begin() + end[b]);
     const bool ended_a = ka == collected.begin() + end[a], ended_b = kb == collected.begin() + end[b];
@@ -492,6 +484,12 @@ PoleSet Diagram::poles(Monitor& monitor) const {
     // Both ends of a Voronoi edge that leads to far-away points on both sides.
     const Vec3 p = centers_[at(cell_of[a])], q = centers_[at(cell_of[b])];
     return p != q ? p < q : canonical_less(cell_of[a], cell_of[b]);
+  };
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, at(samples_), 4096), [&](const auto& range) {
+    if (monitor.cancelled()) throw Cancelled();
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      std::sort(order.begin() + bucket[i], order.begin() + bucket[i + 1], before);
+    }
   });
   monitor.step(0.98);
 
@@ -503,7 +501,7 @@ PoleSet Diagram::poles(Monitor& monitor) const {
   std::vector<std::int32_t> defining;
   defining.reserve(collected.size());
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t pole = at(order[i].pole);
+    const std::size_t pole = at(order[i]);
     rank[pole] = static_cast<std::int32_t>(i);
     centers[i] = centers_[at(cell_of[pole])];
     unbounded[i] = bounded_by_far[pole];
