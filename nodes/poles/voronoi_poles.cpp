@@ -177,8 +177,8 @@ class Diagram {
   }
   void merge_coincident(std::vector<std::pair<std::int32_t, std::int32_t>> pairs);
   std::vector<std::array<std::int32_t, 3>> farthest_vertices(Monitor& monitor) const;
-  std::vector<std::uint8_t> poles_and_candidates(
-      const std::vector<std::array<std::int32_t, 3>>& farthest) const;
+  std::vector<std::uint8_t> poles_and_candidates(const std::vector<std::array<std::int32_t, 3>>& farthest,
+                                                 Monitor& monitor) const;
 
   const PointSet& sample_;
   std::int32_t samples_;
@@ -403,7 +403,7 @@ constexpr double opposite = -0.75;
 // Per cell that stands for a Voronoi vertex, 1 for poles and for candidates: where the poles of a sample are
 // not opposite they may be on one side of the surface, so all bounded vertices behind the first are kept.
 std::vector<std::uint8_t> Diagram::poles_and_candidates(
-    const std::vector<std::array<std::int32_t, 3>>& farthest) const {
+    const std::vector<std::array<std::int32_t, 3>>& farthest, Monitor& monitor) const {
   std::vector<std::uint8_t> kept(sites_.size(), 0), blunt(farthest.size(), 0);
   for (std::size_t s = 0; s < farthest.size(); ++s) {
     blunt[s] = 1;
@@ -416,6 +416,7 @@ std::vector<std::uint8_t> Diagram::poles_and_candidates(
     if (product * product >= opposite * opposite * squared_length(u) * squared_length(v)) blunt[s] = 0;
   }
   for (std::size_t i = 0; i < sites_.size(); ++i) {
+    if (i % (1 << 16) == 0 && monitor.cancelled()) throw Cancelled();
     if (unbounded_[at(vertex_[i])] == 1 || kept[at(vertex_[i])] == 1) continue;
     for (const std::int32_t s : sites_[i]) {
       if (s >= samples_ || blunt[at(s)] == 0) continue;
@@ -427,7 +428,7 @@ std::vector<std::uint8_t> Diagram::poles_and_candidates(
 
 PoleSet Diagram::poles(Monitor& monitor) const {
   std::vector<std::array<std::int32_t, 3>> sample_poles = farthest_vertices(monitor);
-  const std::vector<std::uint8_t> kept = poles_and_candidates(sample_poles);
+  const std::vector<std::uint8_t> kept = poles_and_candidates(sample_poles, monitor);
 
   // Number the vertices that are kept, and collect the sites of all cells around each of them.
   std::vector<std::int32_t> number(sites_.size(), -1);
@@ -448,6 +449,7 @@ PoleSet Diagram::poles(Monitor& monitor) const {
   std::vector<std::int64_t> end(begin.begin(), begin.end() - 1);
   for (std::size_t i = 0; i < sites_.size(); ++i) {
     const std::int32_t pole = number[at(vertex_[i])];
+    if (i % (1 << 16) == 0 && monitor.cancelled()) throw Cancelled();
     if (pole < 0) continue;
     for (const std::int32_t site : sites_[i]) collected[static_cast<std::size_t>(end[at(pole)]++)] = site;
   }
