@@ -94,7 +94,7 @@ typedef enum bf_status { BF_OK = 0, BF_FAILED = 1, BF_CANCELLED = 2 } bf_status;
 typedef struct bf_node {
   uint32_t struct_size;
   uint32_t reserved;
-  bf_bytes declaration; /* JSON, see node_decl.hpp */
+  bf_bytes declaration;          /* JSON, see node_decl.hpp */
   int (*run)(const bf_run* run); /* bf_status; stateless, may run in several threads at once */
 } bf_node;
 

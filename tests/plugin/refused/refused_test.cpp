@@ -3,6 +3,7 @@
 #include <elf.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -176,8 +177,13 @@ TEST_F(plugin, found_twice_is_loaded_once) {
   const std::string path = copy("good");
   fs::create_symlink(path, folder_.file("link.so"));
   setenv("BALLFLOW_PLUGIN_PATH", ("/nowhere::" + folder_.path()).c_str(), 1);
-  EXPECT_EQ(Registry::load({path, folder_.path()})->candidates().size(), 1U);
+  const auto registry = Registry::load({path, folder_.path()});
   unsetenv("BALLFLOW_PLUGIN_PATH");
+  // The built-in node libraries may be beside the executable or not.
+  const auto& all = registry->candidates();
+  EXPECT_EQ(std::count_if(all.begin(), all.end(),
+                          [&](const PluginCandidate& c) { return c.path.rfind(folder_.path(), 0) == 0; }),
+            1);
 }
 
 TEST_F(plugin, path_variable_adds_folders) {
