@@ -32,7 +32,7 @@ std::string joined(const std::vector<Diagnostic>& findings) {
 }  // namespace
 
 std::string Diagnostic::text() const {
-  std::string result = file;
+  std::string result = printable(file);
   if (line > 0) result += ":" + std::to_string(line) + ":" + std::to_string(column);
   if (!result.empty()) result += ": ";
   result += severity == Severity::error ? "error: " : "warning: ";

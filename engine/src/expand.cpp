@@ -122,6 +122,11 @@ class Expander {
 
   std::optional<Json> value_of(const Override& override_, const ParamDecl& param) {
     Json value;
+    if (!is_utf8(override_.value)) {
+      findings_.add(about_override(override_, in_quotes(param.name) + " must be UTF-8",
+                                   "rename the file, or set a link to it with a name in UTF-8"));
+      return std::nullopt;
+    }
     if (!from_text(param, override_.value, value)) {
       const char* wanted = param.kind == ParamKind::boolean   ? "true or false"
                            : param.kind == ParamKind::integer ? "a whole number of 64 bits"

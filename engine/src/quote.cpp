@@ -47,6 +47,14 @@ std::string printable(std::string_view text) {
   return result;
 }
 
+bool is_utf8(const std::string& text) {
+  try {
+    return !Json(text).dump().empty();
+  } catch (const Json::type_error&) {
+    return false;
+  }
+}
+
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t longest = 120;
   if (text.size() <= longest) return '"' + printable(text) + '"';

@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "ballflow/node_decl.hpp"
+#include "ballflow/text.hpp"
 
 namespace ballflow {
 
-/// The text with control characters and invalid UTF-8 replaced by "?".
-std::string printable(std::string_view text);
+/// Whether the text is UTF-8, as every JSON text must be.
+bool is_utf8(const std::string& text);
 
 /// `printable` in double quotes; long text is cut.
 std::string in_quotes(std::string_view text);

@@ -276,6 +276,45 @@ TEST_F(CliTest, an_artifact_is_exported_by_its_digest) {
   EXPECT_EQ(ballflow({"export", "ffffffffffff", folder.file("c.ply")}).exit_code, 2);
 }
 
+TEST_F(CliTest, what_cannot_be_written_is_refused_before_anything_runs) {
+  test::write_file(folder.file("file"), "in the way");
+  const auto refused = [&](std::vector<std::string> arguments, int code) {
+    arguments.insert(arguments.begin(), {"--set", small});
+    const ProcessResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, code) << arguments[1] << ": " << result.err;
+    EXPECT_EQ(result.err.find("dmt/sample"), std::string::npos) << result.err;
+  };
+  refused({"--out", folder.file("file")}, 5);
+  refused({"--report", folder.file("absent/report.json")}, 5);
+  refused({"--format", "balls=xyzzy"}, 2);
+  refused({"--threads", "1", "--set", "input=caf\xe9.off"}, 2);
+}
+
+TEST_F(CliTest, outputs_stay_inside_their_folder) {
+  const ProcessResult result = run_graph(
+      R"({"nodes": {"s": {"type": "Sample", "params": {"file": "shape:box"}}}, "outputs": {"../../x": "s.points"}})");
+  EXPECT_EQ(result.exit_code, 2);
+}
+
+TEST_F(CliTest, an_output_folder_may_have_any_name) {
+  const std::string out = folder.file("caf\xe9");
+  ASSERT_EQ(run({"--set", small, "--out", out}).exit_code, 0);
+  const ProcessResult again = run({"--set", small, "--out", out});
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(again.out.find("wrote"), std::string::npos) << again.out;
+}
+
+TEST_F(CliTest, a_damaged_artifact_is_not_exported) {
+  ASSERT_EQ(run({"--set", small, "--report", folder.file("report.json")}).exit_code, 0);
+  const std::string digest = report().at("outputs").at("balls").at("digest");
+  const std::string path = folder.file("cache/cas/" + digest.substr(0, 2) + "/" + digest.substr(2));
+  std::string bytes = test::read_file(path);
+  bytes.back() ^= 1;
+  fs::remove(path);
+  test::write_file(path, bytes);
+  EXPECT_EQ(ballflow({"export", digest, folder.file("b.ply")}).exit_code, 5);
+}
+
 TEST_F(CliTest, an_unwritable_cache_is_no_failure) {
   if (geteuid() == 0) {
     // root writes everywhere: a file where the folder should be does the same

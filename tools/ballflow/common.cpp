@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "ballflow/text.hpp"
 #include "commands.hpp"
 
 namespace ballflow::cli {
@@ -35,16 +36,22 @@ std::vector<Override> GraphArguments::overrides() const {
 }
 
 void print_table(const std::vector<std::vector<std::string>>& rows) {
+  // One column per character, not per byte: continuation bytes take no room.
+  const auto columns = [](const std::string& text) {
+    return static_cast<std::size_t>(
+        std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+  };
   std::vector<std::size_t> widths;
   for (const auto& row : rows) {
     widths.resize(std::max(widths.size(), row.size()));
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], columns(printable(row[i])));
   }
   for (const auto& row : rows) {
     std::string line;
     for (std::size_t i = 0; i < row.size(); ++i) {
-      line += row[i];
-      if (i + 1 < row.size()) line += std::string(widths[i] - row[i].size() + 2, ' ');
+      const std::string cell = printable(row[i]);
+      line += cell;
+      if (i + 1 < row.size()) line += std::string(widths[i] - columns(cell) + 2, ' ');
     }
     std::printf("%s\n", line.c_str());
   }

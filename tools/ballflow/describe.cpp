@@ -13,6 +13,12 @@ std::string number(const Json& summary, const char* field) {
   return grouped(summary.at(field).get<std::int64_t>());
 }
 
+/// "1 ball", "35 676 balls".
+std::string counted(const Json& summary, const char* field, const std::string& thing) {
+  const std::string count = number(summary, field);
+  return count + " " + thing + (count == "1" ? "" : "s");
+}
+
 std::string percent(double fraction) {
   char text[32];
   std::snprintf(text, sizeof text, "%.2f %%", 100 * fraction);
@@ -21,18 +27,18 @@ std::string percent(double fraction) {
 
 std::string cover(const Json& s) {
   if (s.contains("remaining") && s.at("remaining") == 0) {
-    std::string text = number(s, "chosen") + " balls chosen";
+    std::string text = counted(s, "chosen", "ball") + " chosen";
     if (s.at("lower_bound").is_number()) text += ", at least " + number(s, "lower_bound") + " needed";
     if (s.at("gap").is_number()) text += ", gap " + percent(s.at("gap").get<double>());
     return text;
   }
   std::string text = number(s, "rows") + " x " + number(s, "cols") + ", " + number(s, "nnz") + " entries";
-  if (s.contains("chosen") && s.at("chosen") != 0) text += ", " + number(s, "chosen") + " balls chosen";
+  if (s.contains("chosen") && s.at("chosen") != 0) text += ", " + counted(s, "chosen", "ball") + " chosen";
   return text;
 }
 
 std::string mesh(const Json& s) {
-  std::string text = number(s, "faces") + " triangles, ";
+  std::string text = counted(s, "faces", "triangle") + ", ";
   if (s.value("faces", 0) == 0) return "no triangles";
   text += s.value("closed", false) ? "closed" : "open";
   if (!s.value("manifold", true)) text += ", not manifold";
@@ -41,8 +47,9 @@ std::string mesh(const Json& s) {
 }
 
 std::string complex(const Json& s) {
-  std::string text = number(s, "tetrahedra") + " tetrahedra, " + number(s, "triangles") +
-                     " triangles, Euler characteristic " + number(s, "euler_characteristic");
+  std::string text =
+      number(s, "tetrahedra") + (s.value("tetrahedra", 0) == 1 ? " tetrahedron, " : " tetrahedra, ") +
+      counted(s, "triangles", "triangle") + ", Euler characteristic " + number(s, "euler_characteristic");
   if (s.contains("betti") && s.at("betti").is_array() && s.at("betti").size() == 3) {
     text +=
         ", Betti " + s.at("betti")[0].dump() + " " + s.at("betti")[1].dump() + " " + s.at("betti")[2].dump();
@@ -51,8 +58,8 @@ std::string complex(const Json& s) {
 }
 
 std::string axis(const Json& s) {
-  return number(s, "polygons") + " polygons, " + number(s, "edges") + " free edges, Euler characteristic " +
-         number(s, "euler_characteristic");
+  return counted(s, "polygons", "polygon") + ", " + counted(s, "edges", "free edge") +
+         ", Euler characteristic " + number(s, "euler_characteristic");
 }
 
 }  // namespace
@@ -79,12 +86,12 @@ std::string duration(double seconds) {
 std::string describe(const OutputEntry& output) {
   using Words = std::function<std::string(const Json&)>;
   static const std::map<std::string, Words> words = {
-      {"PointSet", [](const Json& s) { return number(s, "count") + " points"; }},
+      {"PointSet", [](const Json& s) { return counted(s, "count", "point"); }},
       {"TriangleMesh", mesh},
       {"PoleSet",
        [](const Json& s) {
          const bool labelled = s.value("inner", 0) + s.value("outer", 0) != 0;
-         return number(s, "poles") + " poles" +
+         return counted(s, "poles", "pole") +
                 (labelled ? " (" + number(s, "inner") + " inner, " + number(s, "outer") + " outer)" : "");
        }},
       {"CoverState", cover},
@@ -98,10 +105,15 @@ std::string describe(const OutputEntry& output) {
   const Json summary = Json::parse(output.summary, nullptr, false);
   if (!summary.is_object()) return output.type;
   if (output.type == "Balls") {
-    return number(summary, "count") + (output.port == "balls" ? " balls" : " " + output.port + " balls");
+    return counted(summary, "count", output.port == "balls" ? "ball" : output.port + " ball");
   }
   const auto found = words.find(output.type);
-  if (found != words.end()) return found->second(summary);
+  if (found != words.end()) {
+    try {
+      return found->second(summary);
+    } catch (const Json::exception&) {  // another plugin's idea of the summary
+    }
+  }
   std::string text = output.type;  // a type of another plugin: its numbers speak for themselves
   for (const auto& [field, value] : summary.items()) {
     if (value.is_number()) text += ", " + field + " " + value.dump();

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "ballflow/text.hpp"
 #include "commands.hpp"
 #include "export/export.hpp"
 
@@ -20,13 +21,23 @@ ArtifactPtr find_artifact(const Common& common, const std::string& name) {
   const bool hexadecimal = name.find_first_not_of("0123456789abcdef") == std::string::npos;
   if (hexadecimal && name.size() >= 6 && name.size() <= 64) {
     const auto store = common.store();
-    std::vector<std::string> found;
-    for (const auto& file :
-         fs::directory_iterator(fs::path(store->root()) / "cas" / name.substr(0, 2), ignored)) {
-      const std::string digest = name.substr(0, 2) + file.path().filename().string();
-      if (digest.rfind(name, 0) == 0) found.push_back(file.path().string());
+    if (store->root().empty()) {
+      throw Error(ExitCode::usage, "there is no cache to look for " + name + " in: " + store->why(),
+                  "name its folder with --cache or $BALLFLOW_CACHE, or give a file");
     }
-    if (found.size() == 1) return Artifact::map(found.front());
+    std::vector<std::string> found;
+    const fs::path shard = fs::path(store->root()) / "cas" / name.substr(0, 2);
+    for (fs::directory_iterator file(shard, ignored), end; !ignored && file != end; file.increment(ignored)) {
+      const std::string digest = name.substr(0, 2) + file->path().filename().string();
+      if (digest.rfind(name, 0) == 0) found.push_back(digest);
+    }
+    if (found.size() == 1) {
+      const std::string path = (shard / found.front().substr(2)).string();
+      const ArtifactPtr artifact = Artifact::map(path);
+      if (artifact->digest().hex() == found.front()) return artifact;
+      throw Error(ExitCode::store, path + " is damaged: its content has another digest than its name",
+                  "delete it; the next run that needs it makes it again");
+    }
     if (found.size() > 1) {
       throw Error(ExitCode::usage, "\"" + name + "\" is the beginning of several digests",
                   "give more digits");
@@ -36,10 +47,22 @@ ArtifactPtr find_artifact(const Common& common, const std::string& name) {
               "give a file, or the digest of an artifact from a run report (6 digits or more)");
 }
 
+std::string formats_help() {
+  std::string text = "Formats by type, the default first:\n";
+  const auto add = [&text](const std::string& type, const std::vector<std::string>& formats) {
+    text += "  " + type + std::string(type.size() < 20 ? 20 - type.size() : 1, ' ');
+    for (const std::string& format : formats) text += (&format == &formats.front() ? "" : ", ") + format;
+    text += "\n";
+  };
+  for (const std::string& type : exported_types()) add(type, export_formats(type));
+  add("any other type", export_formats(""));
+  return text + "safetensors is the artifact itself, byte for byte; json only describes it.";
+}
+
 int export_one(const Common& common, const ExportArguments& arguments) {
   const ArtifactPtr artifact = find_artifact(common, arguments.artifact);
   export_artifact(*artifact, arguments.path, arguments.format);
-  std::printf("wrote %s (%s)\n", arguments.path.c_str(), artifact->type().c_str());
+  std::printf("wrote %s (%s)\n", printable(arguments.path).c_str(), artifact->type().c_str());
   return 0;
 }
 
@@ -54,6 +77,7 @@ void add_export(CLI::App& app, Common& common, Action& action) {
   command->add_option("file", arguments->path, "file to write")->required();
   command->add_option("--format", arguments->format, "format; default: by the extension of the file");
   command->add_option("--cache", common.cache, "cache folder")->type_name("DIR");
+  command->footer(formats_help());
   command->callback([&common, &action, arguments] {
     action = [&common, arguments] { return export_one(common, *arguments); };
   });

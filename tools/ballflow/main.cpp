@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "ballflow/text.hpp"
 #include "commands.hpp"
 
 int main(int argc, char** argv) {
@@ -34,20 +35,22 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage);
   }
   try {
-    return action();
+    const int status = action();
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
+    throw Error(ExitCode::store, "cannot write to the standard output", "is its disk full?");
   } catch (const GraphError& error) {
     for (const Diagnostic& finding : error.findings()) std::fprintf(stderr, "%s\n", finding.text().c_str());
     return static_cast<int>(error.code());
   } catch (const Error& error) {
-    std::fprintf(stderr, "ballflow: error: %s\n", error.what());
-    if (!error.hint().empty()) std::fprintf(stderr, "  %s\n", error.hint().c_str());
+    std::fprintf(stderr, "ballflow: error: %s\n", printable(error.what()).c_str());
+    if (!error.hint().empty()) std::fprintf(stderr, "  %s\n", printable(error.hint()).c_str());
     return static_cast<int>(error.code());
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "ballflow: error: out of memory\n");
     return static_cast<int>(ExitCode::node_failed);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "ballflow: error: %s\n  this is a bug of ballflow; please report it\n",
-                 error.what());
+                 printable(error.what()).c_str());
     return static_cast<int>(ExitCode::node_failed);
   }
 }

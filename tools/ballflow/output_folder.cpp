@@ -1,7 +1,9 @@
 #include "output_folder.hpp"
 
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -29,25 +31,29 @@ Json read_record(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   std::ostringstream text;
   text << in.rdbuf();
-  Json record = Json::parse(text.str(), nullptr, false);
+  Json record = Json::parse(text.str(), nullptr, false);  // keyed by the names of the files in the folder
   return record.is_object() ? record : Json::object();
 }
 
 }  // namespace
 
-std::vector<WrittenFile> write_outputs(const std::string& folder, const Dag& dag, const RunResult& result,
-                                       const std::map<std::string, std::string>& formats,
-                                       const std::function<ArtifactPtr(const EdgeRef&)>& load) {
+void prepare_folder(const std::string& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) {
-    throw Error(ExitCode::store, "cannot create the folder " + folder + ": " + error.message(),
-                "choose a folder that can be written with --out; what was computed is in the cache");
-  }
+  if (!error && access(folder.c_str(), W_OK | X_OK) != 0) error.assign(errno, std::generic_category());
+  if (!error && !fs::is_directory(folder)) error = std::make_error_code(std::errc::not_a_directory);
+  if (!error) return;
+  throw Error(ExitCode::store, "cannot write to the folder " + folder + ": " + error.message(),
+              "choose a folder that can be written with --out");
+}
+
+WrittenOutputs write_outputs(const std::string& folder, const Dag& dag, const RunResult& result,
+                             const std::map<std::string, std::string>& formats,
+                             const std::function<ArtifactPtr(const EdgeRef&)>& load) {
   const fs::path record_path = fs::path(folder) / record_name;
   const Json before = read_record(record_path);
-  Json record = Json::object();
-  std::vector<WrittenFile> files;
+  Json record = before;  // other graphs may write to this folder too
+  WrittenOutputs written;
   for (const DagOutput& output : dag.outputs) {
     const OutputEntry* entry = nullptr;
     for (const OutputEntry& candidate : result.nodes[output.from.node].outputs) {
@@ -56,19 +62,30 @@ std::vector<WrittenFile> write_outputs(const std::string& folder, const Dag& dag
     if (entry == nullptr) continue;  // its node failed
     const auto chosen = formats.find(output.name);
     const std::string format = chosen != formats.end() ? chosen->second : default_format(entry->type);
-    const std::string path = (fs::path(folder) / (output.name + "." + format)).string();
-    Json made = {{"digest", entry->digest.hex()}, {"format", format}};
+    const std::string name = output.name + "." + format;
+    const std::string path = (fs::path(folder) / name).string();
+    Json made = {{"digest", entry->digest.hex()}, {"format", format}, {"version", BALLFLOW_VERSION}};
     if (const Json now = stamp(path); !now.is_null()) made.update(now);
-    const bool current = before.contains(path) && before.at(path) == made && made.contains("size");
-    if (!current) {
-      export_artifact(*load(output.from), path, format);
-      made.update(stamp(path));
+    const bool current = before.contains(name) && before.at(name) == made && made.contains("size");
+    try {
+      if (!current) {
+        record.erase(name);
+        export_artifact(*load(output.from), path, format);
+        if (const Json now = stamp(path); !now.is_null()) made.update(now);
+        record[name] = std::move(made);
+      }
+      written.files.push_back({output.name, path, describe(*entry), !current});
+    } catch (const Error& failure) {
+      if (!written.failure) written.failure = failure;
     }
-    record[path] = std::move(made);
-    files.push_back({output.name, path, describe(*entry), !current});
   }
-  if (record != before) write_atomically(record_path.string(), record.dump(1));
-  return files;
+  try {
+    if (record != before)
+      write_atomically(record_path.string(), record.dump(1, ' ', false, Json::error_handler_t::replace));
+  } catch (const Error& failure) {
+    if (!written.failure) written.failure = failure;
+  }
+  return written;
 }
 
 }  // namespace ballflow::cli

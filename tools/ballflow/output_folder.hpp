@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,10 +19,19 @@ struct WrittenFile {
   bool written = false;  // false: it was there already
 };
 
+struct WrittenOutputs {
+  std::vector<WrittenFile> files;
+  std::optional<Error> failure;  // the first; the other outputs are written nevertheless
+};
+
+/// Creates the folder. Throws Error when that is not possible or nothing can be written in it: to be called
+/// before anything is computed.
+void prepare_folder(const std::string& folder);
+
 /// Brings `folder` up to date with the outputs of a finished run. `formats` overrides the usual format of an
-/// output by its name ("balls" -> "csv"). `load` is called only for files that are not current. Throws Error.
-std::vector<WrittenFile> write_outputs(const std::string& folder, const Dag& dag, const RunResult& result,
-                                       const std::map<std::string, std::string>& formats,
-                                       const std::function<ArtifactPtr(const EdgeRef&)>& load);
+/// output by its name ("balls" -> "csv"). `load` is called only for files that are not current.
+WrittenOutputs write_outputs(const std::string& folder, const Dag& dag, const RunResult& result,
+                             const std::map<std::string, std::string>& formats,
+                             const std::function<ArtifactPtr(const EdgeRef&)>& load);
 
 }  // namespace ballflow::cli

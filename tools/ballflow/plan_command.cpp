@@ -1,6 +1,7 @@
 #include <cstdio>
 
 #include "ballflow/report.hpp"
+#include "ballflow/text.hpp"
 #include "commands.hpp"
 #include "terminal.hpp"
 
@@ -36,8 +37,11 @@ int check(const Common& common, const GraphArguments& arguments) {
   const auto registry = common.registry();
   const Dag dag = load_graph(arguments.file, *registry, arguments.overrides());
   for (const Diagnostic& warning : dag.warnings) std::fprintf(stderr, "%s\n", warning.text().c_str());
-  std::printf("%s: %zu nodes, %zu outputs, no errors\n", arguments.file.c_str(), dag.nodes.size(),
-              dag.outputs.size());
+  const auto counted = [](std::size_t n, const char* thing) {
+    return std::to_string(n) + " " + thing + (n == 1 ? "" : "s");
+  };
+  std::printf("%s: %s, %s, no errors\n", printable(arguments.file).c_str(),
+              counted(dag.nodes.size(), "node").c_str(), counted(dag.outputs.size(), "output").c_str());
   return 0;
 }
 

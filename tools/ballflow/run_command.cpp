@@ -1,13 +1,19 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <ctime>
+#include <filesystem>
 
 #include "ballflow/report.hpp"
+#include "ballflow/text.hpp"
 #include "commands.hpp"
+#include "export/export.hpp"
 #include "output_folder.hpp"
 #include "terminal.hpp"
 
@@ -51,14 +57,15 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
-void print_failure(const RunArguments& arguments, const Dag& dag, const RunResult& result, std::size_t i) {
+void print_failure(const Common& common, const RunArguments& arguments, const Dag& dag,
+                   const RunResult& result, std::size_t i) {
   const DagNode& node = dag.nodes[i];
   const NodeResult& failed = result.nodes[i];
   std::fprintf(stderr, "\nnode %s (%s) failed: %s\n", node.path.c_str(), node.decl->id.c_str(),
-               failed.cause.c_str());
-  if (!failed.hint.empty()) std::fprintf(stderr, "  what to do: %s\n", failed.hint.c_str());
+               printable(failed.cause).c_str());
+  if (!failed.hint.empty()) std::fprintf(stderr, "  what to do: %s\n", printable(failed.hint).c_str());
   for (const auto& [name, value] : node.params) {
-    std::fprintf(stderr, "  param %s = %s\n", name.c_str(), plain(value).c_str());
+    std::fprintf(stderr, "  param %s = %s\n", name.c_str(), printable(plain(value)).c_str());
   }
   for (const auto& [port, edge] : node.inputs) {
     for (const OutputEntry& entry : result.nodes[edge.node].outputs) {
@@ -67,9 +74,14 @@ void print_failure(const RunArguments& arguments, const Dag& dag, const RunResul
                    edge.port.c_str(), describe(entry).c_str(), entry.digest.hex().substr(0, 16).c_str());
     }
   }
-  std::string again = "ballflow run " + quoted(arguments.graph.file);
+  std::string again = "ballflow";
+  for (const std::string& plugin : common.plugins) again += " --plugin " + quoted(plugin);
+  again += " run " + quoted(arguments.graph.file);
+  if (!common.cache.empty()) again += " --cache " + quoted(common.cache);
+  if (common.no_cache) again += " --no-cache";
+  if (arguments.seed != 0) again += " --seed " + std::to_string(arguments.seed);
   for (const std::string& set : arguments.graph.sets) again += " --set " + quoted(set);
-  std::fprintf(stderr, "  again, from this node on: %s\n", again.c_str());
+  std::fprintf(stderr, "  again, from this node on: %s\n", printable(again).c_str());
 }
 
 void print_result(const Dag& dag, const RunResult& result) {
@@ -109,6 +121,41 @@ void print_result(const Dag& dag, const RunResult& result) {
               grouped(static_cast<std::int64_t>(result.peak_rss_bytes >> 20)).c_str());
 }
 
+void check_formats(const Dag& dag, const std::map<std::string, std::string>& formats) {
+  for (const auto& [name, format] : formats) {
+    const std::string option = "--format " + name + "=" + format + ": ";
+    const auto output = std::find_if(dag.outputs.begin(), dag.outputs.end(),
+                                     [&name = name](const DagOutput& known) { return known.name == name; });
+    if (output == dag.outputs.end()) {
+      std::vector<std::string> names;
+      for (const DagOutput& known : dag.outputs) names.push_back(known.name);
+      const std::string near = nearest(name, names);
+      throw Error(ExitCode::usage, option + "the graph has no output \"" + name + "\"",
+                  near.empty() ? "" : "did you mean \"" + near + "\"?");
+    }
+    const std::string& type = dag.nodes[output->from.node].decl->output(output->from.port)->type;
+    const std::vector<std::string> known = export_formats(type);
+    if (std::find(known.begin(), known.end(), format) != known.end()) continue;
+    std::string all;
+    for (const std::string& one : known) all += (all.empty() ? "" : ", ") + one;
+    throw Error(ExitCode::usage, option + "a " + type + " cannot be written as \"" + format + "\"",
+                "use one of " + all);
+  }
+}
+
+void check_report(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path, ignored);
+  if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) return;  // a device
+  const fs::path parent = fs::path(path).parent_path();
+  const std::string folder = parent.empty() ? "." : parent.string();
+  const int code = fs::is_directory(status) ? EISDIR : access(folder.c_str(), W_OK | X_OK) != 0 ? errno : 0;
+  if (code == 0) return;
+  throw Error(ExitCode::store, "cannot write the report " + path + ": " + std::strerror(code),
+              "choose a file in a folder that exists and can be written with --report");
+}
+
 int run(const Common& common, const RunArguments& arguments) {
   std::map<std::string, std::string> formats;
   for (const std::string& format : arguments.formats) {
@@ -122,15 +169,10 @@ int run(const Common& common, const RunArguments& arguments) {
   const auto registry = common.registry();
   const Dag dag = load_graph(arguments.graph.file, *registry, arguments.graph.overrides());
   for (const Diagnostic& warning : dag.warnings) std::fprintf(stderr, "%s\n", warning.text().c_str());
-  for (const auto& [output, format] : formats) {
-    std::vector<std::string> names;
-    for (const DagOutput& known : dag.outputs) names.push_back(known.name);
-    if (std::find(names.begin(), names.end(), output) != names.end()) continue;
-    const std::string near = nearest(output, names);
-    throw Error(ExitCode::usage,
-                "--format " + output + "=" + format + ": the graph has no output \"" + output + "\"",
-                near.empty() ? "" : "did you mean \"" + near + "\"?");
-  }
+  check_formats(dag, formats);
+  // Before hours of computing, not after them.
+  if (!arguments.out.empty()) prepare_folder(arguments.out);
+  if (!arguments.report.empty()) check_report(arguments.report);
   const auto store = common.store();
   if (!common.no_cache && !store->why().empty()) {
     std::fprintf(stderr, "warning: the cache is not written: %s\n", store->why().c_str());
@@ -138,6 +180,8 @@ int run(const Common& common, const RunArguments& arguments) {
 
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
+  // Who reads the progress may go; the results are wanted nevertheless.
+  const auto on_broken_pipe = std::signal(SIGPIPE, SIG_IGN);
   RunOptions options;
   options.threads = arguments.threads;
   options.seed = arguments.seed;
@@ -146,33 +190,43 @@ int run(const Common& common, const RunArguments& arguments) {
   Runner runner(dag, *registry, store, options, *display, load_manifests(*store, arguments.graph.file));
   const RunResult& result = runner.run();
 
-  std::vector<WrittenFile> files;
+  WrittenOutputs written;
   if (!arguments.out.empty() && result.status == ExitCode::ok) {
-    files = write_outputs(arguments.out, dag, result, formats,
-                          [&runner](const EdgeRef& edge) { return runner.artifact(edge); });
+    written = write_outputs(arguments.out, dag, result, formats,
+                            [&runner](const EdgeRef& edge) { return runner.artifact(edge); });
   }
   if (const std::string trouble = store->trouble(); !trouble.empty()) {
     std::fprintf(stderr, "warning: not everything could be cached: %s\n", trouble.c_str());
   }
   const Json report = run_report(run_id(), dag, result);
   save_latest(*store, arguments.graph.file, result, dag, report);
-  if (!arguments.report.empty())
-    write_atomically(arguments.report, report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  bool reported = false;
+  if (!arguments.report.empty()) {
+    try {
+      write_atomically(arguments.report, report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+      reported = true;
+    } catch (const Error& failure) {
+      if (!written.failure) written.failure = failure;
+    }
+  }
+  std::signal(SIGPIPE, on_broken_pipe);
 
   if (!arguments.quiet) {
     print_result(dag, result);
-    for (const WrittenFile& file : files) {
-      std::printf("%s %s: %s\n", file.written ? "wrote" : "kept ", file.path.c_str(), file.what.c_str());
+    for (const WrittenFile& file : written.files) {
+      std::printf("%s %s: %s\n", file.written ? "wrote" : "kept ", printable(file.path).c_str(),
+                  printable(file.what).c_str());
     }
-    if (!arguments.report.empty()) std::printf("report %s\n", arguments.report.c_str());
+    if (reported) std::printf("report %s\n", printable(arguments.report).c_str());
   }
   for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
-    if (result.nodes[i].status == NodeStatus::failed) print_failure(arguments, dag, result, i);
+    if (result.nodes[i].status == NodeStatus::failed) print_failure(common, arguments, dag, result, i);
   }
   if (result.status == ExitCode::cancelled) {
     std::fprintf(stderr,
                  "cancelled; what was finished is in the cache, the same command goes on from there\n");
   }
+  if (written.failure) throw Error(*written.failure);
   return static_cast<int>(result.status);
 }
 

@@ -11,6 +11,8 @@
 #include <mutex>
 #include <thread>
 
+#include "ballflow/text.hpp"
+
 namespace ballflow::cli {
 namespace {
 
@@ -89,7 +91,7 @@ class Display final : public EventSink {
 
   void say(const std::string& line) {
     erase_block();
-    std::fprintf(stderr, "%s\n", line.c_str());
+    std::fprintf(stderr, "%s\n", printable(line).c_str());
   }
 
   void erase_block() {
@@ -102,8 +104,10 @@ class Display final : public EventSink {
       erase_block();
       winsize size{};
       const std::size_t width =
-          ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 20 ? size.ws_col : 80u;
+          ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80u;
+      const int height = size.ws_row > 1 ? size.ws_row : 24;  // what has scrolled away cannot be erased
       for (const auto& [node, running] : running_) {
+        if (drawn_ + 1 >= height) break;
         if (since(running.start) < 0.3) continue;  // quick nodes would only flicker
         constexpr std::size_t bar_width = 24;
         const auto full = static_cast<std::size_t>(running.fraction * bar_width);

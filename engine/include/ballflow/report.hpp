@@ -20,7 +20,8 @@ Manifests load_manifests(Store& store, const std::string& graph_file);
 void save_latest(Store& store, const std::string& graph_file, const RunResult& result, const Dag& dag,
                  const Json& report);
 
-/// Writes a file so that readers see the old or the new content, never a part. Throws Error (code store).
+/// Writes a file so that readers see the old or the new content, never a part. Pipes and devices are written
+/// to as they are. Throws Error (code store).
 void write_atomically(const std::string& path, std::string_view content);
 
 }  // namespace ballflow

@@ -9,12 +9,16 @@
 namespace ballflow {
 namespace {
 
-std::vector<Format> formats_of(std::string_view type) {
-  static const std::vector<TypeFormats> table = {
+const std::vector<TypeFormats>& table() {
+  static const std::vector<TypeFormats> types = {
       point_set_formats(), triangle_mesh_formats(),      balls_formats(),
       pole_set_formats(),  simplicial_complex_formats(), medial_axis_formats()};
+  return types;
+}
+
+std::vector<Format> formats_of(std::string_view type) {
   std::vector<Format> formats;
-  for (const TypeFormats& entry : table) {
+  for (const TypeFormats& entry : table()) {
     if (entry.type == type) formats = entry.formats;
   }
   for (const Format& generic : generic_formats()) formats.push_back(generic);
@@ -35,6 +39,12 @@ std::vector<std::string> export_formats(std::string_view type) {
   std::vector<std::string> names;
   for (const Format& format : formats_of(type)) names.emplace_back(format.name);
   return names;
+}
+
+std::vector<std::string> exported_types() {
+  std::vector<std::string> types;
+  for (const TypeFormats& entry : table()) types.emplace_back(entry.type);
+  return types;
 }
 
 std::string default_format(std::string_view type) { return std::string(formats_of(type).front().name); }

@@ -27,6 +27,9 @@ inline std::vector<std::string> export_formats(const Artifact& artifact) {
   return export_formats(artifact.type());
 }
 
+/// The types that have formats of their own.
+std::vector<std::string> exported_types();
+
 std::string default_format(std::string_view type);
 
 /// Writes `artifact` to `path`; a reader sees the whole file or what was there before. An empty `format` is
