@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/file.h>
+#include <sys/statvfs.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -102,6 +103,18 @@ int FileSystem::list(int folder, std::vector<std::string>& names) {
   const int error = -errno;
   ::closedir(entries);
   return error;
+}
+
+int FileSystem::touch(int file) {
+  constexpr timespec keep_access_modify_now[2] = {{0, UTIME_OMIT}, {0, UTIME_NOW}};
+  return call([&] { return ::futimens(file, keep_access_modify_now); });
+}
+
+int FileSystem::capacity(int folder, std::uint64_t& bytes) {
+  struct statvfs disk {};
+  const int result = call([&] { return ::fstatvfs(folder, &disk); });
+  bytes = result == 0 ? std::uint64_t{disk.f_blocks} * disk.f_frsize : 0;
+  return result;
 }
 
 int FileSystem::try_lock(int file) {

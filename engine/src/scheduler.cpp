@@ -11,6 +11,7 @@
 #include <set>
 #include <thread>
 
+#include "ballflow/gc.hpp"
 #include "ballflow/run.hpp"
 #include "node_run.hpp"
 #include "quote.hpp"
@@ -95,6 +96,7 @@ class Runner::Impl {
       : dag_(dag),
         registry_(registry),
         store_(std::move(store)),
+        lease_(Lease::take(store_)),
         options_(options),
         events_(events),
         earlier_(std::move(earlier)) {
@@ -603,6 +605,7 @@ class Runner::Impl {
   const Dag& dag_;
   const Registry& registry_;
   std::shared_ptr<Store> store_;
+  std::unique_ptr<Lease> lease_;  // what this run uses is not collected while it lives
   RunOptions options_;
   EventSink& events_;
   Manifests earlier_;

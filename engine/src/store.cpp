@@ -37,6 +37,7 @@
 
 #include "ballflow/error.hpp"
 #include "ballflow/file_system.hpp"
+#include "store_folders.hpp"
 
 namespace ballflow {
 namespace {
@@ -46,7 +47,9 @@ constexpr std::uint32_t action_format = 1, memo_format = 1;
 constexpr std::uint64_t entry_limit = 64u << 20;  // no honest entry comes near it
 constexpr std::size_t checksum_size = 16;
 constexpr std::int64_t settled_after = 2'000'000'000;  // ns; no file system stamps coarser than 2 s (FAT)
-constexpr mode_t folder_mode = 0755, file_mode = 0444, private_mode = 0700, lock_mode = 0600;
+constexpr mode_t folder_mode = 0755, file_mode = 0444, private_mode = 0700;
+constexpr std::uint64_t account_at = 64u
+                                     << 20;  // bytes that may be lost from the count when a process is killed
 
 std::string message(int negative_errno) { return std::generic_category().message(-negative_errno); }
 
@@ -194,10 +197,6 @@ std::optional<ActionEntry> decode(const Digest& key, std::string_view bytes) {
   return entry;
 }
 
-std::int64_t nanoseconds(const timespec& time) {
-  return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
-}
-
 /// What tells one state of a file from another without reading it.
 struct FileState {
   std::uint64_t device = 0, inode = 0, size = 0;
@@ -235,24 +234,46 @@ std::string encode(const FileState& state, const Digest& digest) {
   return std::move(writer).sealed();
 }
 
-std::optional<Digest> decode(const FileState& state, std::string_view bytes) {
+struct Memo {
+  FileState state;
+  Digest digest;
+};
+
+std::optional<Memo> decode_memo(std::string_view bytes) {
   Reader reader(bytes);
   if (!reader.unseal() || reader.raw(memo_magic.size()) != memo_magic) return std::nullopt;
   std::uint32_t format = 0;
-  FileState stored;
-  Digest digest;
+  Memo memo;
+  FileState& stored = memo.state;
   reader.number(format);
   reader.number(stored.device);
   reader.number(stored.inode);
   reader.number(stored.size);
   reader.number(stored.modified);
   reader.number(stored.changed);
-  reader.digest(digest);
-  if (!reader.at_end() || format != memo_format || stored != state) return std::nullopt;
-  return digest;
+  reader.digest(memo.digest);
+  if (!reader.at_end() || format != memo_format) return std::nullopt;
+  return memo;
 }
 
-/// Why the owner or the mode of a file or folder makes it unfit for a cache; empty when they do not.
+OutputEntry entry_of(const Artifact& artifact) {
+  return {{},
+          artifact.type(),
+          artifact.version(),
+          artifact.digest(),
+          artifact.file_size(),
+          artifact.checksum(),
+          artifact.summary()};
+}
+
+bool describes(const OutputEntry& output, const Artifact& artifact) {
+  return output.bytes == artifact.file_size() && output.checksum == artifact.checksum() &&
+         output.type == artifact.type() && output.type_version == artifact.version() &&
+         output.summary == artifact.summary();
+}
+
+}  // namespace
+
 std::string distrust(const struct stat& status) {
   if (status.st_uid != ::geteuid() && status.st_uid != 0) {
     return "belongs to another user (id " + std::to_string(status.st_uid) + ")";
@@ -278,57 +299,9 @@ std::string random_hex() {
   return text;
 }
 
-class OpenFile {
- public:
-  OpenFile() = default;
-  OpenFile(FileSystem& files, int file) : files_(&files), file_(file) {}
-  OpenFile(OpenFile&& other) noexcept : files_(other.files_), file_(std::exchange(other.file_, -1)) {}
-  OpenFile& operator=(OpenFile&& other) noexcept {
-    std::swap(files_, other.files_);
-    std::swap(file_, other.file_);
-    return *this;
-  }
-  ~OpenFile() { close(); }
-
-  /// The descriptor, or the negative errno value of the attempt to open it.
-  int get() const { return file_; }
-  bool is_open() const { return file_ >= 0; }
-  int release() { return std::exchange(file_, -EBADF); }
-  int close() { return is_open() ? files_->close(std::exchange(file_, -EBADF)) : 0; }
-
- private:
-  FileSystem* files_ = nullptr;
-  int file_ = -EBADF;
-};
-
-constexpr int folder_flags = O_RDONLY | O_DIRECTORY | O_NOFOLLOW;
-// Not blocking: a pipe in the place of a file must not stop the program.
-constexpr int file_flags = O_RDONLY | O_NOFOLLOW | O_NONBLOCK;
-
-std::string shard_of(const std::string& hex) { return hex.substr(0, 2); }
-std::string rest_of(const std::string& hex) { return hex.substr(2); }
-
-OutputEntry entry_of(const Artifact& artifact) {
-  return {{},
-          artifact.type(),
-          artifact.version(),
-          artifact.digest(),
-          artifact.file_size(),
-          artifact.checksum(),
-          artifact.summary()};
-}
-
-bool describes(const OutputEntry& output, const Artifact& artifact) {
-  return output.bytes == artifact.file_size() && output.checksum == artifact.checksum() &&
-         output.type == artifact.type() && output.type_version == artifact.version() &&
-         output.summary == artifact.summary();
-}
-
-}  // namespace
-
 struct Store::Impl {
   std::shared_ptr<FileSystem> files;
-  OpenFile root, cas, ac, runs, pins, tmp, quarantine, memos, locks;
+  OpenFile root, cas, ac, runs, pins, tmp, quarantine, memos, locks, leases;
   bool writing = false;
 
   /// tmp/<host>-<boot>-<pid>-<random>/ of this process: made when first needed, locked while it lives.
@@ -346,11 +319,32 @@ struct Store::Impl {
   std::mutex workspace_mutex;
   std::shared_ptr<Workspace> workspace;
   std::atomic<std::uint64_t> next_file = 0;
+  std::atomic<std::uint64_t> added = 0;    // bytes written and not yet in `usage`
+  std::atomic<std::uint64_t> written_total = 0;  // since open
 
   mutable std::mutex trouble_mutex;
   std::string trouble;
 
-  ~Impl() { workspace.reset(); }
+  ~Impl() {
+    account();
+    workspace.reset();
+  }
+
+  /// Appends what this process has written to `usage` (one write: lines of several processes do not mix).
+  void account() {
+    const std::uint64_t bytes = added.exchange(0);
+    if (bytes == 0) return;
+    const OpenFile file(*files, files->open(root.get(), "usage",
+                                            O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_NONBLOCK, 0644));
+    if (!file.is_open()) return;
+    const std::string line = '+' + std::to_string(bytes) + '\n';
+    files->write(file.get(), line.data(), line.size());
+  }
+
+  /// Records that an open file is used now.
+  void touch(int file, const struct stat& status) {
+    if (writing && files->now() - nanoseconds(status.st_mtim) >= touch_interval) files->touch(file);
+  }
 
   bool failed(const std::string& what, int error) {
     const std::lock_guard lock(trouble_mutex);
@@ -441,7 +435,7 @@ struct Store::Impl {
     return shard;
   }
 
-  std::optional<std::string> read_entry(const OpenFile& top, const std::string& hex) {
+  std::optional<std::string> read_entry(const OpenFile& top, const std::string& hex, bool use) {
     const OpenFile shard = open_shard(top, hex, false);
     if (!shard.is_open()) return std::nullopt;
     const OpenFile file(*files, files->open(shard.get(), rest_of(hex), file_flags));
@@ -455,6 +449,7 @@ struct Store::Impl {
       if (got <= 0) return std::nullopt;
       have += static_cast<std::size_t>(got);
     }
+    if (use) touch(file.get(), status);
     return bytes;
   }
 
@@ -525,7 +520,12 @@ struct Store::Impl {
       draft->gone = result == 0;
     }
     if (result == -EEXIST) return true;
-    return result == 0 || failed(shown, result);
+    if (result < 0) return failed(shown, result);
+    std::uint64_t size = 0;
+    for (const std::span<const std::byte> piece : pieces) size += piece.size();
+    written_total += disk_bytes(size);
+    if ((added += disk_bytes(size)) >= account_at) account();
+    return true;
   }
 
   bool set_aside(const OpenFile& shard, const std::string& hex) {
@@ -551,7 +551,10 @@ struct Store::Impl {
     if (!damaged) {
       try {
         const ArtifactPtr artifact = Artifact::map(file.get(), "cas/" + shard_of(hex) + '/' + rest_of(hex));
-        if (describes(output, *artifact)) return {artifact, false};
+        if (describes(output, *artifact)) {
+          touch(file.get(), status);
+          return {artifact, false};
+        }
         damaged = artifact->digest() != output.digest;
       } catch (const BadArtifact&) {
         damaged = true;
@@ -626,10 +629,10 @@ std::shared_ptr<Store> Store::open(const StoreOptions& options, std::shared_ptr<
   }
   impl.writing = store->why_.empty();
 
-  const std::pair<OpenFile*, const char*> tops[] = {{&impl.cas, "cas"},     {&impl.ac, "ac"},
-                                                    {&impl.runs, "runs"},   {&impl.pins, "pins"},
-                                                    {&impl.tmp, "tmp"},     {&impl.quarantine, "quarantine"},
-                                                    {&impl.memos, "files"}, {&impl.locks, "locks"}};
+  const std::pair<OpenFile*, const char*> tops[] = {
+      {&impl.cas, "cas"},     {&impl.ac, "ac"},       {&impl.runs, "runs"},
+      {&impl.pins, "pins"},   {&impl.tmp, "tmp"},     {&impl.quarantine, "quarantine"},
+      {&impl.memos, "files"}, {&impl.locks, "locks"}, {&impl.leases, "leases"}};
   for (const auto& [folder, name] : tops) {
     *folder = open_folder(impl.root.get(), name, folder_flags);
     if (folder->get() == -ENOENT && impl.writing) {
@@ -687,8 +690,13 @@ std::string Store::default_root() {
   return home.empty() ? home : home + "/.cache/ballflow";
 }
 
+std::optional<ActionEntry> Store::peek_action(const Digest& key) {
+  const auto bytes = impl_->read_entry(impl_->ac, key.hex(), false);
+  return bytes ? decode(key, *bytes) : std::nullopt;
+}
+
 std::optional<ActionEntry> Store::find_action(const Digest& key) {
-  const auto bytes = impl_->read_entry(impl_->ac, key.hex());
+  const auto bytes = impl_->read_entry(impl_->ac, key.hex(), true);
   return bytes ? decode(key, *bytes) : std::nullopt;
 }
 
@@ -744,8 +752,9 @@ Digest Store::file_digest(const std::string& path) {
     }
     const FileState state(status);
     if (state.settled(files.now())) {
-      if (const auto memo = impl_->read_entry(impl_->memos, state.memo_name())) {
-        if (const auto digest = decode(state, *memo)) return *digest;
+      if (const auto memo = impl_->read_entry(impl_->memos, state.memo_name(), true)) {
+        const auto known = decode_memo(*memo);
+        if (known && known->state == state) return known->digest;
       }
     }
 
@@ -766,6 +775,12 @@ Digest Store::file_digest(const std::string& path) {
   }
   fail("it changes while it is being read", "wait until its writer is done");
   return {};
+}
+
+bool Store::memo_intact(const Digest& name) {
+  const auto bytes = impl_->read_entry(impl_->memos, name.hex(), false);
+  const auto memo = bytes ? decode_memo(*bytes) : std::nullopt;
+  return memo && memo->state.memo_name() == name.hex();
 }
 
 Store::Lock::~Lock() {
@@ -829,6 +844,10 @@ std::string Store::new_run_folder(const std::string& id) {
   }
 }
 
+void Store::account() { impl_->account(); }
+
+std::uint64_t Store::written() const { return impl_->written_total; }
+
 Store::Statistics Store::statistics() {
   Statistics total;
   FileSystem& files = *impl_->files;
@@ -854,6 +873,18 @@ Store::Statistics Store::statistics() {
   total.runs = names_in(impl_->runs).size();
   return total;
 }
+
+StoreFolders::StoreFolders(Store& store)
+    : files(store.impl_->files.get()),
+      root(store.impl_->root.get()),
+      cas(store.impl_->cas.get()),
+      ac(store.impl_->ac.get()),
+      pins(store.impl_->pins.get()),
+      quarantine(store.impl_->quarantine.get()),
+      memos(store.impl_->memos.get()),
+      locks(store.impl_->locks.get()),
+      leases(store.impl_->leases.get()),
+      writing(store.impl_->writing) {}
 
 std::string Store::trouble() const {
   const std::lock_guard lock(impl_->trouble_mutex);

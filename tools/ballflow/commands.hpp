@@ -16,11 +16,13 @@ namespace ballflow::cli {
 /// Options that several commands share.
 struct Common {
   std::vector<std::string> plugins;
-  std::string cache;
+  std::string cache, cache_size;
   bool no_cache = false;
 
   std::shared_ptr<const Registry> registry() const { return Registry::load(plugins); }
   std::shared_ptr<Store> store() const;
+  /// Bytes the cache may have: --cache-size, else $BALLFLOW_CACHE_SIZE, else the default of `store`.
+  std::uint64_t cache_limit(Store& store) const;
 };
 
 /// The graph of a command and the values set for it.

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 
+#include "ballflow/gc.hpp"
 #include "ballflow/text.hpp"
 #include "commands.hpp"
 
@@ -10,6 +12,16 @@ std::shared_ptr<Store> Common::store() const {
   StoreOptions options;
   if (!no_cache) options.root = cache.empty() ? Store::default_root() : cache;
   return Store::open(options);
+}
+
+std::uint64_t Common::cache_limit(Store& store) const {
+  const char* const variable = std::getenv("BALLFLOW_CACHE_SIZE");
+  const bool given = !cache_size.empty();
+  const std::string size = given ? cache_size : variable != nullptr ? variable : "";
+  if (size.empty()) return default_limit(store);
+  if (const auto limit = parse_size(size)) return *limit;
+  throw Error(ExitCode::usage, (given ? "" : "BALLFLOW_CACHE_SIZE: ") + ("\"" + size + "\" is not a size"),
+              "write it as 5G, 800M, 1.5T, a number of bytes, or none");
 }
 
 void GraphArguments::add_to(CLI::App& command) {

@@ -10,6 +10,7 @@
 #include <ctime>
 #include <filesystem>
 
+#include "ballflow/gc.hpp"
 #include "ballflow/report.hpp"
 #include "ballflow/text.hpp"
 #include "commands.hpp"
@@ -177,6 +178,7 @@ int run(const Common& common, const RunArguments& arguments) {
   if (!common.no_cache && !store->why().empty()) {
     std::fprintf(stderr, "warning: the cache is not written: %s\n", store->why().c_str());
   }
+  const KeepWithin collect_at_the_end(store, common.cache_limit(*store));
 
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
@@ -246,6 +248,11 @@ void add_run(CLI::App& app, Common& common, Action& action) {
   command->add_option("--report", arguments->report, "file that receives the report of the run (JSON)")
       ->type_name("FILE");
   command->add_option("--cache", common.cache, "cache folder")->type_name("DIR");
+  command
+      ->add_option("--cache-size", common.cache_size,
+                   "size of the cache above which what is worth least is removed, e.g. 5G, or none\n"
+                   "(default: $BALLFLOW_CACHE_SIZE, else 20 GiB or a tenth of the disk, the smaller)")
+      ->type_name("SIZE");
   command->add_flag("--no-cache", common.no_cache, "neither read nor write a cache");
   command
       ->add_option("--threads", arguments->threads,

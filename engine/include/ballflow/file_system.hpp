@@ -50,6 +50,11 @@ class FileSystem {
   /// The names in an open folder, without "." and "..", in no particular order.
   virtual int list(int folder, std::vector<std::string>& names);
 
+  /// Sets the time of modification of an open file to now.
+  virtual int touch(int file);
+  /// Bytes of the whole disk that holds an open folder.
+  virtual int capacity(int folder, std::uint64_t& bytes);
+
   /// Takes the flock of an open file; -EWOULDBLOCK while another open file holds it. close() gives it back.
   virtual int try_lock(int file);
   virtual bool process_alive(pid_t process);

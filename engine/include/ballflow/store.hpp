@@ -3,11 +3,14 @@
 //   <root>/cas/ab/cdef...   artifacts, named by the SHA-256 of their bytes (sha256sum verifies the cache)
 //   <root>/ac/ab/cdef...    action entries, named by action key: what a node produced for that key
 //   <root>/runs/            one folder per run: its report
-//   <root>/pins/            digests that are never collected
+//   <root>/pins/            one empty file per digest that is never collected
 //   <root>/tmp/             files being written, <host>-<boot>-<pid>-<random>/
 //   <root>/quarantine/      blobs that failed their check
 //   <root>/files/ab/cdef... memoised digests of input files, named by the SHA-256 of device and inode
 //   <root>/locks/           one file per key that is being computed
+//   <root>/leases/          one file per live run, locked by it: what it uses is not collected (gc.hpp)
+//   <root>/usage            bytes in the store, roughly, so that nobody has to count them after every run:
+//                           lines "=<bytes> <seconds since 1970>", a count, and "+<bytes>", written since
 //   <root>/CACHEDIR.TAG     tells backup programs to skip the folder
 //
 // Readers see whole files or none (written in tmp/, moved into place). A bad blob goes to quarantine and is
@@ -61,11 +64,14 @@ struct StoreOptions {
   bool read_only = false;
 };
 
+struct StoreFolders;
+
 /// The side effects of the store (file_system.hpp), so that tests can fake a full disk or an odd file system.
 class FileSystem;
 
 class Store {
   struct Impl;
+  friend struct StoreFolders;
 
  public:
   /// Opens or creates. Throws Error (code store) when the folder cannot be trusted (see above). A folder that
@@ -78,7 +84,10 @@ class Store {
   static std::string default_root();
 
   /// A damaged, truncated or foreign entry (another key, another format) is a miss. Its blobs may be missing.
+  /// Counts as a use of the entry, and so of its blobs.
   std::optional<ActionEntry> find_action(const Digest& key);
+  /// The same without counting as a use.
+  std::optional<ActionEntry> peek_action(const Digest& key);
   /// To be called last, after its blobs. An entry that is there and says the same (times aside) is kept; one
   /// that is damaged or names other outputs is replaced at once and as a whole: the newest computation
   /// counts, and readers see the old entry or the new one. False when it could not be written (full disk,
@@ -97,6 +106,8 @@ class Store {
   /// SHA-256 of a file's content, memoised by device, inode, size, mtime and ctime (not trusted when the
   /// file is younger than 2 s). Throws Error when it is no regular file, cannot be read or keeps changing.
   Digest file_digest(const std::string& path);
+  /// Whether files/<name> is there and undamaged.
+  bool memo_intact(const Digest& name);
 
   /// Serialises computations of one key between processes: blocks until this process holds the lock of the
   /// key (flock, freed by the kernel when a process dies). `give_up` is polled while it waits. Null when it
@@ -126,6 +137,11 @@ class Store {
   };
   /// Reads every folder of the store.
   Statistics statistics();
+
+  /// Adds what was written through this store to `usage`; happens by itself now and then, and at the end.
+  void account();
+  /// Bytes written through this store since it was opened, in blocks of 4 KiB.
+  std::uint64_t written() const;
 
   const std::string& root() const { return root_; }
   bool read_only() const { return read_only_; }

@@ -18,6 +18,7 @@ class FaultyFileSystem : public FileSystem {
   std::function<int(const std::string& call)> fault;
   std::size_t write_at_most = SIZE_MAX;  // bytes per call
   std::int64_t clock_offset = 0;
+  std::uint64_t disk = 0;  // bytes of the disk; 0: of the real one
   std::function<void()> before_read;
   std::function<void(struct stat&)> after_status;
 
@@ -89,6 +90,15 @@ class FaultyFileSystem : public FileSystem {
   int list(int folder, std::vector<std::string>& names) override {
     const int error = enter("list");
     return error < 0 ? error : FileSystem::list(folder, names);
+  }
+  int touch(int file) override {
+    const int error = enter("touch");
+    return error < 0 ? error : FileSystem::touch(file);
+  }
+  int capacity(int folder, std::uint64_t& bytes) override {
+    const int error = enter("capacity");
+    if (error == 0 && disk != 0) bytes = disk;
+    return error < 0 || disk != 0 ? error : FileSystem::capacity(folder, bytes);
   }
   int try_lock(int file) override {
     const int error = enter("try_lock");
