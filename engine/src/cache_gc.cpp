@@ -132,6 +132,7 @@ void remove_dead_locks(const StoreFolders& folders) {
 struct Usage {
   bool known = false;
   std::uint64_t bytes = 0;
+  bool written = false;      // since the count
   std::int64_t counted = 0;  // nanoseconds since 1970
 };
 
@@ -156,10 +157,11 @@ Usage read_usage(const StoreFolders& folders) {
     if (number.ec != std::errc()) continue;
     if (kind == '+') {
       usage.bytes = bytes > no_limit - usage.bytes ? no_limit : usage.bytes + bytes;
+      usage.written = true;
     } else if (kind == '=' && number.ptr != last) {
       std::int64_t seconds = 0;
       if (std::from_chars(number.ptr + 1, last, seconds).ec != std::errc()) continue;
-      usage = {true, bytes, std::clamp<std::int64_t>(seconds, 0, INT64_MAX / second) * second};
+      usage = {true, bytes, false, std::clamp<std::int64_t>(seconds, 0, INT64_MAX / second) * second};
     }
   }
   return usage;
@@ -468,7 +470,7 @@ void keep_within(Store& store, std::uint64_t limit) noexcept {
     const Usage usage = read_usage(folders);
     const std::int64_t age = folders.files->now() - usage.counted;
     const bool fits = usage.bytes <= limit;
-    if (usage.known && age < recount_after && (fits || (store.written() == 0 && age < retry_after))) return;
+    if (usage.known && age < recount_after && (fits || (!usage.written && age < retry_after))) return;
     collect(store, {limit, limit / 10 * 9, false, false});
   } catch (...) {
     // The run is done and its results are safe; the next one tries again.

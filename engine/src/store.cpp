@@ -319,8 +319,7 @@ struct Store::Impl {
   std::mutex workspace_mutex;
   std::shared_ptr<Workspace> workspace;
   std::atomic<std::uint64_t> next_file = 0;
-  std::atomic<std::uint64_t> added = 0;    // bytes written and not yet in `usage`
-  std::atomic<std::uint64_t> written_total = 0;  // since open
+  std::atomic<std::uint64_t> added = 0;  // bytes written and not yet in `usage`
 
   mutable std::mutex trouble_mutex;
   std::string trouble;
@@ -523,7 +522,6 @@ struct Store::Impl {
     if (result < 0) return failed(shown, result);
     std::uint64_t size = 0;
     for (const std::span<const std::byte> piece : pieces) size += piece.size();
-    written_total += disk_bytes(size);
     if ((added += disk_bytes(size)) >= account_at) account();
     return true;
   }
@@ -845,8 +843,6 @@ std::string Store::new_run_folder(const std::string& id) {
 }
 
 void Store::account() { impl_->account(); }
-
-std::uint64_t Store::written() const { return impl_->written_total; }
 
 Store::Statistics Store::statistics() {
   Statistics total;

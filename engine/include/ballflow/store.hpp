@@ -140,8 +140,6 @@ class Store {
 
   /// Adds what was written through this store to `usage`; happens by itself now and then, and at the end.
   void account();
-  /// Bytes written through this store since it was opened, in blocks of 4 KiB.
-  std::uint64_t written() const;
 
   const std::string& root() const { return root_; }
   bool read_only() const { return read_only_; }
