@@ -78,9 +78,9 @@ class Verifier {
     const std::string hex = name.hex();
     struct stat status {};
     const OpenFile file(*folders_.files, folders_.files->open(shard, rest_of(hex), file_flags));
-    if (file.get() == -ENOENT) return;
     if (file.get() == -ELOOP) return report("cas", shard, name, "is a symbolic link");
-    if (!file.is_open()) return report("cas", shard, name, "cannot be opened");
+    if (file.get() == -EACCES) return report("cas", shard, name, "cannot be read");
+    if (!file.is_open()) return;  // collected meanwhile, or no descriptors left
     if (folders_.files->status(file.get(), status) < 0 || !S_ISREG(status.st_mode)) {
       return report("cas", shard, name, "is not a regular file");
     }

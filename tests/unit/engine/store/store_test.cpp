@@ -90,8 +90,8 @@ TEST_F(StoreTest, files_lie_where_the_layout_says) {
   const auto store = open();
   store->put_blob(*probe, false);
   store->put_action(key, action);
-  EXPECT_EQ(names_in(root), (std::vector<std::string>{"CACHEDIR.TAG", "ac", "cas", "files", "leases", "locks", "pins",
-                                                      "quarantine", "runs", "tmp"}));
+  EXPECT_EQ(names_in(root), (std::vector<std::string>{"CACHEDIR.TAG", "ac", "cas", "files", "leases", "locks",
+                                                      "pins", "quarantine", "runs", "tmp"}));
   const std::string blob = test::read_file(place_of(root, "cas", probe->digest()));
   EXPECT_EQ(blob, test::file_bytes(*probe));
   EXPECT_EQ(sha256(blob), probe->digest());  // what sha256sum would say about the name of the file
