@@ -385,20 +385,6 @@ std::shared_ptr<const Artifact> Artifact::seal(std::string type, int version, st
   }
   artifact->arrays_ = std::move(arrays);
   artifact->owner_ = std::move(owner);
-
-  // Both sums of a chunk while it is in the cache of the processor.
-  constexpr std::size_t chunk = 128 << 10;
-  Hasher digest;
-  Checksummer checksum;
-  for (const std::span<const std::byte> piece : artifact->pieces()) {
-    for (std::size_t at = 0; at < piece.size(); at += chunk) {
-      const std::size_t size = std::min(chunk, piece.size() - at);
-      checksum.add(piece.data() + at, size);
-      digest.add(piece.data() + at, size);
-    }
-  }
-  artifact->checksum_ = checksum.finish();
-  artifact->settle(digest.finish());
   return artifact;
 }
 
@@ -481,7 +467,7 @@ std::shared_ptr<const Artifact> Artifact::decode(std::span<const std::byte> file
     refuse(error.what());
   }
   if (artifact->header_ != text) refuse("its header is not in canonical form");
-  artifact->checksum_ = checksum_of(file.data(), file.size());
+  artifact->settle(checksum_of(file.data(), file.size()));
   artifact->file_size_ = file.size();
   artifact->owner_ = std::move(owner);
   return artifact;
@@ -523,15 +509,46 @@ const NamedArray* Artifact::find(std::string_view name) const {
 
 const Digest& Artifact::digest() const {
   std::call_once(digest_once_, [this] {
-    Hasher hasher;
-    for (const std::span<const std::byte> piece : pieces()) hasher.add(piece.data(), piece.size());
-    digest_ = hasher.finish();
+    // Who wants the digest soon wants the checksum: both sums of a chunk while it is in the processor's
+    // cache.
+    constexpr std::size_t chunk = 128 << 10;
+    Hasher digest;
+    bool both = false;
+    std::call_once(checksum_once_, [&] {
+      Checksummer checksum;
+      for (const std::span<const std::byte> piece : pieces()) {
+        for (std::size_t at = 0; at < piece.size(); at += chunk) {
+          const std::size_t size = std::min(chunk, piece.size() - at);
+          checksum.add(piece.data() + at, size);
+          digest.add(piece.data() + at, size);
+        }
+      }
+      checksum_ = checksum.finish();
+      both = true;
+    });
+    if (!both) {
+      for (const std::span<const std::byte> piece : pieces()) digest.add(piece.data(), piece.size());
+    }
+    digest_ = digest.finish();
   });
   return digest_;
 }
 
+Checksum Artifact::checksum() const {
+  std::call_once(checksum_once_, [this] {
+    Checksummer checksum;
+    for (const std::span<const std::byte> piece : pieces()) checksum.add(piece.data(), piece.size());
+    checksum_ = checksum.finish();
+  });
+  return checksum_;
+}
+
 void Artifact::settle(const Digest& known) const {
   std::call_once(digest_once_, [&] { digest_ = known; });
+}
+
+void Artifact::settle(const Checksum& known) const {
+  std::call_once(checksum_once_, [&] { checksum_ = known; });
 }
 
 std::vector<std::span<const std::byte>> Artifact::pieces() const {

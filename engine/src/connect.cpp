@@ -4,6 +4,7 @@
 #include <queue>
 #include <set>
 
+#include "ballflow/run.hpp"
 #include "expand.hpp"
 #include "quote.hpp"
 
@@ -35,6 +36,7 @@ class Connector {
     edges_.resize(expansion_.leaves.size());
     for (std::size_t i = 0; i < expansion_.scopes.size(); ++i) connect_nodes(i);
     for (const GraphOutput& output : top().outputs) check_reference(0, output.from);
+    for (const LoopBody& loop : expansion_.loops) check_states(loop.scope);
     const std::vector<std::size_t> order = topological_order();
     if (findings_.failed()) return {};
     return build(order);
@@ -44,9 +46,16 @@ class Connector {
   const GraphFile& top() const { return *expansion_.scopes[0].file; }
   const GraphFile& file_of(std::size_t scope) const { return *expansion_.scopes[scope].file; }
 
-  /// What a reference leads to: an output port, an input that is not connected, or something reported.
+  /// Whether the scope is the body of a loop; its inputs then come from the loop.
+  bool is_body(std::size_t scope) const {
+    const std::size_t loop = expansion_.scopes[scope].loop;
+    return loop != nowhere && expansion_.loops[loop].scope == scope;
+  }
+
+  /// What a reference leads to: an output port, an input of the loop around it, an input that is not
+  /// connected, or something reported.
   struct Target {
-    enum class Kind { broken, unconnected, leaf };
+    enum class Kind { broken, unconnected, leaf, loop_input };
     Kind kind = Kind::broken;
     std::size_t leaf = 0;
     std::string port;
@@ -149,14 +158,19 @@ class Connector {
       if (slot.kind == Scope::Slot::Kind::leaf) {
         const NodeDeclaration& decl = *expansion_.leaves[slot.index].decl;
         std::vector<Consumer> consumers;
-        for (const PortDecl& port : decl.inputs)
-          consumers.push_back({port.name, {port.type, port.type_version, port.optional}});
+        for (const PortDecl& port : decl.inputs) {
+          const bool usable = known_type(port.type);  // a loop has the types that its body declares
+          consumers.push_back(
+              {port.name, {usable ? port.type : std::string(), port.type_version, port.optional || !usable}});
+        }
         check_inputs(scope, file.nodes[i], "node " + in_quotes(file.nodes[i].name) + " (" + decl.id + ")",
                      consumers);
         for (const GraphNode::Input& input : file.nodes[i].inputs) {
           if (decl.input(input.port) == nullptr) continue;
           const Target target = resolve(scope, &input.from);
           if (target.kind == Target::Kind::leaf) edges_[slot.index][input.port] = {target.leaf, target.port};
+          if (target.kind == Target::Kind::loop_input)
+            edges_[slot.index][input.port] = {loop_input, target.port};
         }
       } else if (slot.kind == Scope::Slot::Kind::scope) {
         const GraphFile& child = file_of(slot.index);
@@ -177,6 +191,29 @@ class Connector {
     // Also outputs that nobody reads: a subgraph that only passes values around may run in a circle.
     for (std::size_t i = 0; i < file.outputs.size(); ++i) {
       if (resolved_[scope][i].state == Memo::State::fresh) resolve_output(scope, i);
+    }
+  }
+
+  /// Every output of a loop body must fit the input of its name.
+  void check_states(std::size_t scope) {
+    const GraphFile& file = file_of(scope);
+    for (const GraphOutput& output : file.outputs) {
+      const auto place = file.input_index.find(output.name);
+      if (place == file.input_index.end()) continue;  // reported
+      const GraphInput& input = file.inputs[place->second];
+      const std::optional<PortType> given = type_of(scope, &output.from);
+      if (!given || input.broken || !known_type(input.type)) continue;
+      const std::string state = "state " + in_quotes(output.name) + " of the loop";
+      if (given->id != input.type) {
+        findings_.error(file, output.from.offset,
+                        in_quotes(written(file, output.from)) + " is a " + given->id + ", but " + state +
+                            " begins as a " + input.type,
+                        "a loop passes its outputs to its inputs: their types must agree");
+      } else if (given->optional) {
+        findings_.error(
+            file, output.from.offset,
+            in_quotes(written(file, output.from)) + " is optional, but " + state + " is required");
+      }
     }
   }
 
@@ -264,7 +301,7 @@ class Connector {
   Target resolve_output(std::size_t scope, std::size_t output) {
     Reference reference;
     reference.kind = Reference::Kind::node;
-    if (scope == 0) return resolve(0, &top().outputs[output].from);
+    if (scope == 0 || is_body(scope)) return resolve(scope, &file_of(scope).outputs[output].from);
     reference.index = expansion_.scopes[scope].parent_node;
     reference.port = file_of(scope).outputs[output].name;
     return resolve(expansion_.scopes[scope].parent, &reference);
@@ -287,6 +324,11 @@ class Connector {
         const GraphNode::Input* binding = inclusion.input(reference->port);
         if (binding == nullptr) {
           target.kind = Target::Kind::unconnected;
+          break;
+        }
+        if (is_body(scope)) {
+          target.kind = Target::Kind::loop_input;
+          target.port = reference->port;
           break;
         }
         reference = &binding->from;
@@ -340,8 +382,11 @@ class Connector {
     for (std::size_t i = 0; i < n; ++i) rank[by_path[i]] = i;
     std::vector<std::vector<std::size_t>> consumers(n);
     for (std::size_t i = 0; i < n; ++i) {
-      missing[i] = edges_[i].size();
-      for (const auto& [port, edge] : edges_[i]) consumers[edge.node].push_back(i);
+      for (const auto& [port, edge] : edges_[i]) {
+        if (edge.node == loop_input) continue;
+        ++missing[i];
+        consumers[edge.node].push_back(i);
+      }
     }
     std::priority_queue<std::size_t, std::vector<std::size_t>, std::greater<>> ready;  // of ranks
     for (std::size_t i = 0; i < n; ++i) {
@@ -370,7 +415,7 @@ class Connector {
         position[leaf] = walk.size();
         walk.push_back(leaf);
         for (const auto& [port, edge] : edges_[leaf]) {
-          if (done[edge.node]) continue;
+          if (edge.node == loop_input || done[edge.node]) continue;
           leaf = edge.node;
           break;
         }
@@ -413,27 +458,68 @@ class Connector {
     dag.doc = top().doc;
     for (std::size_t i = 0; i < top().params.size(); ++i)
       dag.params[top().params[i].decl.name] = *expansion_.scopes[0].params[i];
-    std::vector<std::size_t> place(expansion_.leaves.size());
-    for (std::size_t i = 0; i < order.size(); ++i) place[order[i]] = i;
-    dag.nodes.resize(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      const Leaf& leaf = expansion_.leaves[order[i]];
-      DagNode& node = dag.nodes[i];
+    std::vector<std::size_t> place(
+        expansion_.leaves.size());  // in the graph, or in the loop body it belongs to
+    for (const std::size_t i : order) {
+      const Leaf& leaf = expansion_.leaves[i];
+      const std::size_t around = expansion_.scopes[leaf.scope].loop;
+      Dag& home = around == nowhere ? dag : expansion_.loops[around].loop->body;
+      place[i] = home.nodes.size();
+      DagNode& node = home.nodes.emplace_back();
       node.path = leaf.path;
       node.decl = leaf.decl;
       node.params = leaf.params;
-      for (const auto& [port, edge] : edges_[order[i]]) node.inputs[port] = {place[edge.node], edge.port};
+      if (leaf.loop != nowhere) node.loop = expansion_.loops[leaf.loop].loop;
+      for (const auto& [port, edge] : edges_[i])
+        node.inputs[port] = {edge.node == loop_input ? loop_input : place[edge.node], edge.port};
       const GraphFile& file = file_of(leaf.scope);
       const json_text::Position position = file.source.position(file.nodes[leaf.node].offset);
       node.place = {file.source.file(), position.line, position.column,
                     "/nodes/" + json_text::escape_pointer(file.nodes[leaf.node].name)};
     }
-    for (const GraphOutput& output : top().outputs) {
-      const Target target = resolve(0, &output.from);
+    add_outputs(dag, 0, place);
+    for (std::size_t i = expansion_.loops.size(); i-- > 0;)  // inner loops first
+      finish(*expansion_.loops[i].loop, expansion_.loops[i].scope, place);
+    return dag;
+  }
+
+  void add_outputs(Dag& dag, std::size_t scope, const std::vector<std::size_t>& place) {
+    for (const GraphOutput& output : file_of(scope).outputs) {
+      const Target target = resolve(scope, &output.from);
       if (target.kind == Target::Kind::leaf)
         dag.outputs.push_back({output.name, output.doc, {place[target.leaf], target.port}});
+      if (target.kind == Target::Kind::loop_input)
+        dag.outputs.push_back({output.name, output.doc, {loop_input, target.port}});
     }
-    return dag;
+  }
+
+  /// Drops what no state needs, and sums up what the nodes of the body declare; they run one at a time.
+  void finish(Loop& loop, std::size_t scope, const std::vector<std::size_t>& place) {
+    Dag& body = loop.body;
+    body.file = file_of(scope).source.file();
+    body.doc = file_of(scope).doc;
+    add_outputs(body, scope, place);
+    const std::vector<bool> needed = needed_nodes(body);
+    std::vector<std::size_t> number(needed.size());
+    std::vector<DagNode> nodes;
+    for (std::size_t i = 0; i < needed.size(); ++i) {
+      if (!needed[i]) continue;
+      number[i] = nodes.size();
+      nodes.push_back(std::move(body.nodes[i]));
+      for (auto& [port, edge] : nodes.back().inputs) {
+        if (edge.node != loop_input) edge.node = number[edge.node];
+      }
+    }
+    body.nodes = std::move(nodes);
+    for (DagOutput& output : body.outputs) {
+      if (output.from.node != loop_input) output.from.node = number[output.from.node];
+    }
+    for (const DagNode& node : body.nodes) {
+      loop.decl.uses_seed = loop.decl.uses_seed || node.decl->uses_seed;
+      loop.decl.memory_fixed = std::max(loop.decl.memory_fixed, node.decl->memory_fixed);
+      loop.decl.memory_per_input_byte =
+          std::max(loop.decl.memory_per_input_byte, node.decl->memory_per_input_byte);
+    }
   }
 
   const Expansion& expansion_;

@@ -4,8 +4,10 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <utility>
 
 #include "quote.hpp"
+#include "until.hpp"
 
 namespace ballflow {
 
@@ -144,11 +146,10 @@ class Expander {
   }
 
   /// The value written for `param` at a node, or from an override. Nothing when absent or wrong.
-  std::optional<Json> given_value(const Scope& scope, const GraphNode& node, const std::string& path,
-                                  const ParamDecl& param, bool& given) {
+  std::optional<Json> given_value(const Scope& scope, const GraphNode::Param* written,
+                                  const std::string& path, const ParamDecl& param, bool& given) {
     given = true;
     if (const Override* override_ = overrides_.find(path, param.name)) return value_of(*override_, param);
-    const GraphNode::Param* written = node.param(param.name);
     given = written != nullptr;
     if (!given) return std::nullopt;
     const std::optional<Json> value = written->value.evaluate(scope.params);
@@ -187,6 +188,7 @@ class Expander {
     scope.file = &file;
     scope.parent = parent;
     scope.parent_node = parent_node;
+    scope.loop = loop_;
     scope.path = path;
     scope.params = std::move(params);
     scope.slots.resize(file.nodes.size());
@@ -223,7 +225,7 @@ class Expander {
     for (const ParamDecl& param : decl->params) {
       known.push_back(param.name);
       bool given = false;
-      std::optional<Json> value = given_value(scope, node, path, param, given);
+      std::optional<Json> value = given_value(scope, node.param(param.name), path, param, given);
       if (!given && param.required) {
         findings_.error(*scope.file, node.offset,
                         "node " + in_quotes(node.name) + " (" + decl->id +
@@ -245,7 +247,8 @@ class Expander {
     if (!name) return {};
     if (!name->is_string()) {
       findings_.error(*scope.file, node.graph->offset,
-                      "\"graph\" must be the path of a file, " + described(*name));
+                      (node.loop ? "\"loop\"" : "\"graph\"") + std::string(" must be the path of a file, ") +
+                          described(*name));
       return {};
     }
     std::string key;
@@ -262,22 +265,168 @@ class Expander {
         continue;
       }
       bool given = false;
-      std::optional<Json> value = given_value(scope, node, path, param.decl, given);
+      std::optional<Json> value = given_value(scope, node.param(param.decl.name), path, param.decl, given);
       if (!given && param.decl.required) {
         findings_.error(*scope.file, node.offset,
-                        "subgraph " + in_quotes(node.name) + " (" + file->source.file() +
-                            ") needs a value for its parameter " + in_quotes(param.decl.name),
+                        (node.loop ? "loop " : "subgraph ") + in_quotes(node.name) + " (" +
+                            file->source.file() + ") needs a value for its parameter " +
+                            in_quotes(param.decl.name),
                         param_hint(param.decl, nullptr));
       }
       if (!given && !param.decl.required) value = param.decl.default_value;
       params.push_back(std::move(value));
     }
-    refuse_unknown_params(*scope.file, node, "subgraph " + in_quotes(file->source.file()), known);
+    refuse_unknown_params(*scope.file, node,
+                          (node.loop ? "loop body " : "subgraph ") + in_quotes(file->source.file()), known);
 
     chain_.push_back({key, file->source.file()});
-    const std::size_t child = instantiate(*file, scope_index, node_index, path, std::move(params));
+    Scope::Slot slot;
+    if (node.loop) {
+      slot = add_loop(*file, scope_index, node_index, path, std::move(params));
+    } else {
+      slot = {Scope::Slot::Kind::scope, instantiate(*file, scope_index, node_index, path, std::move(params))};
+    }
     chain_.pop_back();
-    return {Scope::Slot::Kind::scope, child};
+    return slot;
+  }
+
+  /// A loop is one node for what is around it; its body is a scope that nothing outside sees.
+  Scope::Slot add_loop(const GraphFile& body, std::size_t scope_index, std::size_t node_index,
+                       const std::string& path, std::vector<std::optional<Json>> params) {
+    const Scope& scope = expansion_.scopes[scope_index];
+    const GraphNode& node = scope.file->nodes[node_index];
+    const auto loop = std::make_shared<Loop>();
+    bool good = read_interface(*scope.file, node, body, *loop);
+    Leaf leaf;
+    leaf.path = path;
+    leaf.scope = scope_index;
+    leaf.node = node_index;
+    leaf.decl = &loop->decl;
+    leaf.loop = expansion_.loops.size();
+    for (const ParamDecl& param : loop->decl.params) {
+      bool given = false;
+      std::optional<Json> value = given_value(scope, node.setting(param.name), path, param, given);
+      if (!given && !param.required) value = param.default_value;
+      good = good && value;
+      if (value) leaf.params[param.name] = std::move(*value);
+    }
+    if (const auto until = leaf.params.find("until");
+        until != leaf.params.end() && !loop->decl.outputs.empty())
+      good = read_until(scope, node, path, until->second.get<std::string>(), *loop) && good;
+    if (good) {
+      loop->max_iterations = leaf.params.at("max_iterations").get<std::int64_t>();
+      loop->stop_at_limit = leaf.params.at("at_limit") == "stop";
+    }
+    expansion_.loops.push_back({loop, nowhere});
+    const std::size_t outer = std::exchange(loop_, leaf.loop);
+    expansion_.loops[leaf.loop].scope = expansion_.scopes.size();
+    instantiate(body, scope_index, node_index, path, std::move(params));
+    loop_ = outer;
+    if (!good) return {};
+    expansion_.leaves.push_back(std::move(leaf));
+    return {Scope::Slot::Kind::leaf, expansion_.leaves.size() - 1};
+  }
+
+  /// The ports of a loop are those of its body.
+  bool read_interface(const GraphFile& file, const GraphNode& node, const GraphFile& body, Loop& loop) {
+    const std::string owner = "loop " + in_quotes(node.name);
+    bool good = true;
+    loop.decl.id = "loop";
+    loop.decl.params = loop_settings();
+    for (const GraphParam& param : body.params) {
+      for (const ParamDecl& setting : loop_settings()) {
+        if (param.decl.name != setting.name) continue;
+        findings_.error(body, param.offset,
+                        "the body of " + owner + " cannot have a parameter " + in_quotes(param.decl.name),
+                        "every loop has a setting of that name; choose another one");
+        good = false;
+      }
+    }
+    const auto port = [&](const GraphInput& input) {
+      PortDecl decl;
+      decl.name = input.name;
+      decl.type = input.type;
+      const TypeDeclaration* type = registry_.type(input.type);
+      decl.type_version = type == nullptr ? 0 : type->version;
+      decl.optional = input.optional;
+      return decl;
+    };
+    for (const GraphInput& input : body.inputs) {
+      good = good && !input.broken;
+      loop.decl.inputs.push_back(port(input));
+    }
+    if (body.outputs.empty()) {
+      findings_.error(file, node.graph->offset,
+                      owner + " has no state: " + printable(body.source.file()) + " has no \"outputs\"",
+                      "a loop passes its outputs to its inputs of the same names");
+      good = false;
+    }
+    for (const GraphOutput& output : body.outputs) {
+      const auto input = body.input_index.find(output.name);
+      if (input == body.input_index.end()) {
+        findings_.error(body, output.offset,
+                        "output " + in_quotes(output.name) + " is a state of " + owner +
+                            ", but there is no input of that name",
+                        "a loop passes its outputs to its inputs: declare " + in_quotes(output.name) +
+                            " under \"inputs\" with the type of the output");
+        good = false;
+        continue;
+      }
+      const GraphInput& state = body.inputs[input->second];
+      if (state.optional && !state.broken) {
+        findings_.error(
+            body, state.offset,
+            "input " + in_quotes(state.name) + " is a state of " + owner + " and cannot be optional");
+        good = false;
+      }
+      loop.decl.outputs.push_back(port(state));
+      loop.decl.outputs.back().optional = false;
+    }
+    return good;
+  }
+
+  bool read_until(const Scope& scope, const GraphNode& node, const std::string& path, const std::string& text,
+                  Loop& loop) {
+    std::vector<UntilProblem> problems;
+    loop.until = text;
+    loop.conditions = parse_until(
+        text, problems, [&](const Loop::Comparison& comparison, std::size_t state_at, std::size_t field_at) {
+          std::vector<std::string> known;
+          const PortDecl* const state = loop.decl.output(comparison.state);
+          if (state == nullptr) {
+            for (const PortDecl& port : loop.decl.outputs) known.push_back(port.name);
+            const std::string hint = did_you_mean(comparison.state, known);
+            problems.push_back(
+                {state_at, "loop " + in_quotes(node.name) + " has no state " + in_quotes(comparison.state),
+                 hint.empty() ? "states are " + listed(known) : hint});
+            return;
+          }
+          const TypeDeclaration* const type = registry_.type(state->type);
+          if (type == nullptr) return;  // reported where the body declares it
+          for (const auto& [field, doc] : type->summary) known.push_back(field);
+          if (std::find(known.begin(), known.end(), comparison.field) != known.end()) return;
+          const std::string hint = did_you_mean(comparison.field, known);
+          problems.push_back({field_at,
+                              "the summary of a " + type->id + " has no field " + in_quotes(comparison.field),
+                              !hint.empty()   ? hint
+                              : known.empty() ? "it has no fields"
+                                              : "fields are " + listed(known)});
+        });
+    const GraphNode::Param* const written = node.setting("until");
+    for (UntilProblem& problem : problems) {
+      problem.message = "\"until\": " + problem.message;
+      if (const Override* override_ = overrides_.find(path, "until")) {
+        findings_.add(about_override(*override_, std::move(problem.message), std::move(problem.hint)));
+        continue;
+      }
+      // Inside the text when it stands in the file as it is, without escapes and parameters.
+      const std::size_t begin = written->value.offset;
+      const bool verbatim = scope.file->source.content().substr(begin + 1, text.size()) == text &&
+                            scope.file->source.content().substr(begin + 1 + text.size(), 1) == "\"";
+      findings_.error(*scope.file, static_cast<Offset>(verbatim ? begin + 1 + problem.at : begin),
+                      std::move(problem.message), std::move(problem.hint));
+    }
+    return problems.empty();
   }
 
   /// The file that `includer` names, read at most once; null when it cannot be used.
@@ -386,9 +535,35 @@ class Expander {
   std::set<std::string> unreadable_;
   std::map<std::string, std::string> canonical_;  // a file may be included a million times
   std::size_t instances_ = 0;
+  std::size_t loop_ = nowhere;  // whose body is being instantiated
 };
 
 }  // namespace
+
+const std::vector<ParamDecl>& loop_settings() {
+  static const std::vector<ParamDecl> settings = [] {
+    ParamDecl until, most, at_limit;
+    until.name = "until";
+    until.doc =
+        "ends the loop, looked at before every iteration: fields of the summaries of states compared with "
+        "numbers, "
+        "joined by \"and\" and \"or\", like \"cover.remaining == 0\"";
+    until.required = true;
+    most.name = "max_iterations";
+    most.doc = "how often the body runs at most";
+    most.kind = ParamKind::integer;
+    most.default_value = std::int64_t{10'000};
+    most.minimum = 1;
+    most.maximum = 1'000'000'000;
+    at_limit.name = "at_limit";
+    at_limit.doc = "what to do when max_iterations have run";
+    at_limit.kind = ParamKind::choice;
+    at_limit.default_value = "error";
+    at_limit.choices = {{"error", "fail"}, {"stop", "go on with the state reached, and warn"}};
+    return std::vector<ParamDecl>{until, most, at_limit};
+  }();
+  return settings;
+}
 
 void expand(std::unique_ptr<GraphFile> top, const Registry& registry, const std::vector<Override>& overrides,
             Expansion& expansion, Findings& findings) {

@@ -30,6 +30,7 @@ struct Scope {
   const GraphFile* file = nullptr;
   std::size_t parent = nowhere;             // scope
   std::size_t parent_node = nowhere;        // node of the parent's file
+  std::size_t loop = nowhere;               // the innermost loop around it
   std::string path;                         // "prune", empty at the top
   std::vector<std::optional<Json>> params;  // by GraphFile::params; nothing where an error was reported
   std::vector<Slot> slots;                  // by GraphFile::nodes
@@ -42,6 +43,13 @@ struct Leaf {
   std::size_t node = 0;  // of the scope's file
   const NodeDeclaration* decl = nullptr;
   std::map<std::string, Json> params;
+  std::size_t loop = nowhere;  // what the node is, if it is a loop
+};
+
+/// A loop and the scope of its body. Outer loops come before inner ones.
+struct LoopBody {
+  std::shared_ptr<Loop> loop;
+  std::size_t scope = nowhere;
 };
 
 struct Expansion {
@@ -49,6 +57,7 @@ struct Expansion {
   std::vector<std::string> file_names;                      // as in messages, in order of first reading
   std::deque<Scope> scopes;
   std::vector<Leaf> leaves;
+  std::vector<LoopBody> loops;
   bool abandoned = false;  // a limit was reached; the rest is missing
 };
 
@@ -59,6 +68,9 @@ void expand(std::unique_ptr<GraphFile> top, const Registry& registry, const std:
 
 /// Connects the leaves, checks ports, types and cycles, and puts the nodes into topological order.
 Dag connect(const Expansion& expansion, const Registry& registry, Findings& findings);
+
+/// The settings of every loop, as parameters of its node: until, max_iterations, at_limit.
+const std::vector<ParamDecl>& loop_settings();
 
 /// Throws Error when it cannot be read or is larger than the limit of texts.
 std::string read_text_file(const std::string& path);

@@ -41,6 +41,9 @@ const GraphNode::Input* GraphNode::input(const std::string& port) const {
 const GraphNode::Param* GraphNode::param(const std::string& wanted) const {
   return find_sorted(params, wanted, &Param::name);
 }
+const GraphNode::Param* GraphNode::setting(const std::string& wanted) const {
+  return find_sorted(settings, wanted, &Param::name);
+}
 
 void Findings::error(const GraphFile& file, Offset offset, std::string message, std::string hint) {
   add(json_text::finding(file.source, file.root, offset, std::move(message), std::move(hint)));
@@ -333,28 +336,50 @@ class Reader {
       node.broken = true;
       return;
     }
-    const bool keys_known = known_keys(member.value, "a node", {"type", "graph", "inputs", "params", "doc"});
-    const Value* type = member.value.find("type");
-    const Value* graph = member.value.find("graph");
-    if (type != nullptr && graph != nullptr) {
-      error(graph->offset, "node " + in_quotes(node.name) + " has both \"type\" and \"graph\"",
-            "keep one of them");
-      node.broken = true;
-    } else if (type == nullptr && graph == nullptr) {
+    const bool keys_known = known_keys(
+        member.value, "a node",
+        {"type", "graph", "loop", "inputs", "params", "until", "max_iterations", "at_limit", "doc"});
+    const char* kind = nullptr;
+    for (const char* const key : {"type", "graph", "loop"}) {
+      const Value* value = member.value.find(key);
+      if (value == nullptr) continue;
+      if (kind != nullptr) {
+        error(value->offset,
+              "node " + in_quotes(node.name) + " has both " + in_quotes(kind) + " and " + in_quotes(key),
+              "keep one of them");
+        node.broken = true;
+      }
+      kind = key;
+    }
+    if (kind == nullptr) {
       // With an unknown key the missing one is probably that one, which was reported.
       if (keys_known) {
-        error(node.offset, "node " + in_quotes(node.name) + " has neither \"type\" nor \"graph\"",
-              "\"type\" names a node type, \"graph\" the file of a subgraph");
+        error(node.offset, "node " + in_quotes(node.name) + " has no \"type\", \"graph\" or \"loop\"",
+              "\"type\" names a node type, \"graph\" the file of a subgraph, \"loop\" that of the body of a "
+              "loop");
       }
       node.broken = true;
     }
+    node.loop = member.value.find("loop") != nullptr;
+    if (node.loop && member.value.find("until") == nullptr)
+      error(node.offset, "loop " + in_quotes(node.name) + " has no \"until\"",
+            "\"until\": \"state.field == 0\", a field of the summary of a state");
     for (const Member& field : member.value.members) {
       if (field.key == "doc") text(field, ignored_);
       if (field.key == "type") {
         node.broken = !text(field, node.type) || node.broken;
         node.type_offset = field.value.offset;
       }
-      if (field.key == "graph") {
+      if (field.key == "until" || field.key == "max_iterations" || field.key == "at_limit") {
+        if (node.loop) {
+          node.settings.push_back({field.key, field.offset, read_template(field.value)});
+        } else {
+          error(field.offset,
+                in_quotes(field.key) + " is for loops, node " + in_quotes(node.name) + " is none",
+                "\"loop\": \"body.json\" makes a node a loop");
+        }
+      }
+      if (field.key == "graph" || field.key == "loop") {
         if (std::string ignored; text(field, ignored)) {
           node.graph = read_template(field.value);
         } else {
@@ -375,6 +400,8 @@ class Reader {
     std::sort(node.inputs.begin(), node.inputs.end(),
               [](const auto& a, const auto& b) { return a.port < b.port; });
     std::sort(node.params.begin(), node.params.end(),
+              [](const auto& a, const auto& b) { return a.name < b.name; });
+    std::sort(node.settings.begin(), node.settings.end(),
               [](const auto& a, const auto& b) { return a.name < b.name; });
   }
 

@@ -72,14 +72,17 @@ struct GraphNode {
   Offset offset = 0;
   std::string type;  // empty when it is a subgraph
   Offset type_offset = 0;
-  std::optional<Template> graph;
-  std::vector<Input> inputs;  // by port
-  std::vector<Param> params;  // by name
+  std::optional<Template> graph;  // the file of a subgraph or of the body of a loop
+  bool loop = false;
+  std::vector<Param> settings;  // of a loop, by name: at_limit, max_iterations, until
+  std::vector<Input> inputs;    // by port
+  std::vector<Param> params;    // by name
   bool broken = false;
   bool used = false;
 
   const Input* input(const std::string& port) const;
   const Param* param(const std::string& name) const;
+  const Param* setting(const std::string& name) const;
 };
 
 struct GraphOutput {

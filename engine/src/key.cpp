@@ -127,12 +127,12 @@ void compare(const std::string& path, const Json& before, const Json& now, std::
   out.push_back(path + " " + before.dump() + " -> " + now.dump());
 }
 
-}  // namespace
+Json body_manifest(const Dag& body, Store& store);
 
-ActionKey action_key(const DagNode& node, const std::map<std::string, OutputEntry>& inputs,
-                     std::uint64_t seed, Store& store) {
+/// What a node does, without its inputs.
+Json node_manifest(const DagNode& node, Store& store) {
   const NodeDeclaration& decl = *node.decl;
-  Json manifest = {{"format", key_format}, {"node", decl.id}, {"version", decl.version}};
+  Json manifest = {{"node", decl.id}, {"version", decl.version}};
   manifest["libraries"] = Json::object();
   for (const auto& [name, version] : decl.libraries) manifest["libraries"][name] = version;
   Json params = Json::object();
@@ -140,7 +140,34 @@ ActionKey action_key(const DagNode& node, const std::map<std::string, OutputEntr
     if (param.hashed) params[param.name] = key_value(param, node.params.at(param.name), store);
   }
   manifest["params"] = std::move(params);
-  manifest["seed"] = decl.uses_seed ? Json(seed) : Json(nullptr);
+  if (node.loop) manifest["body"] = body_manifest(node.loop->body, store);
+  return manifest;
+}
+
+/// The nodes of a loop body by position and type, because names are in no key, and how they are connected.
+Json body_manifest(const Dag& body, Store& store) {
+  const auto name = [&](std::size_t i) { return std::to_string(i) + ":" + body.nodes[i].decl->id; };
+  const auto source = [&](const EdgeRef& edge) {
+    return (edge.node == loop_input ? "inputs" : name(edge.node)) + "." + edge.port;
+  };
+  Json nodes = Json::object(), states = Json::object();
+  for (std::size_t i = 0; i < body.nodes.size(); ++i) {
+    Json one = node_manifest(body.nodes[i], store);
+    one["inputs"] = Json::object();
+    for (const auto& [port, edge] : body.nodes[i].inputs) one["inputs"][port] = source(edge);
+    nodes[name(i)] = std::move(one);
+  }
+  for (const DagOutput& output : body.outputs) states[output.name] = source(output.from);
+  return {{"nodes", std::move(nodes)}, {"states", std::move(states)}};
+}
+
+}  // namespace
+
+ActionKey action_key(const DagNode& node, const std::map<std::string, OutputEntry>& inputs,
+                     std::uint64_t seed, Store& store) {
+  Json manifest = {{"format", key_format}};
+  manifest.update(node_manifest(node, store));
+  manifest["seed"] = node.decl->uses_seed ? Json(seed) : Json(nullptr);
   Json ports = Json::object();
   for (const auto& [port, entry] : inputs) {
     ports[port] = {{"type", entry.type}, {"version", entry.type_version}, {"digest", entry.digest.hex()}};

@@ -203,18 +203,30 @@ class Host {
 
 }  // namespace
 
-NodeRunOutcome run_node(const NodeRunRequest& request) {
-  Host host(request);
-  const bf_run table = host.table();
+NodeRunOutcome run_in_arena(unsigned threads, const std::function<NodeRunOutcome()>& work) {
   const auto start = std::chrono::steady_clock::now();
-  int status = BF_FAILED;
-  tbb::task_arena arena(static_cast<int>(request.threads));
+  tbb::task_arena arena(static_cast<int>(threads));
   arena.initialize();
   CpuMeter meter(arena);
-  arena.execute([&] { status = request.node->decl->entry->run(&table); });
-  NodeRunOutcome outcome = std::move(host.outcome);
+  NodeRunOutcome outcome;
+  arena.execute([&] {
+    outcome = work();
+    for (const auto& [port, artifact] : outcome.outputs) artifact->digest();
+  });
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   outcome.cpu_seconds = meter.total();
+  return outcome;
+}
+
+NodeRunOutcome run_node(const NodeRunRequest& request) {
+  return run_in_arena(request.threads, [&] { return call_node(request); });
+}
+
+NodeRunOutcome call_node(const NodeRunRequest& request) {
+  Host host(request);
+  const bf_run table = host.table();
+  const int status = request.node->decl->entry->run(&table);
+  NodeRunOutcome outcome = std::move(host.outcome);
 
   // An output that the engine refused reaches the node as a cancellation; the recorded cause decides.
   if (!outcome.cause.empty()) {

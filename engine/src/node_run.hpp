@@ -4,6 +4,7 @@
 #include <atomic>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,12 +28,19 @@ struct NodeRunOutcome {
   enum class Status { ok, failed, cancelled } status = Status::failed;
   std::map<std::string, ArtifactPtr> outputs;  // by port, every declared one when ok
   std::vector<std::string> warnings;
-  std::string cause, hint;  // when failed
+  std::string cause, hint;                 // when failed
+  std::optional<std::int64_t> iterations;  // of a loop
   double seconds = 0, cpu_seconds = 0;
 };
 
 /// Runs the node inside a task arena of its own, so that its parallel loops never pick up work of another
 /// node while they wait (work stealing across nodes can deadlock).
 NodeRunOutcome run_node(const NodeRunRequest& request);
+
+/// The same in the arena of the caller, without times; outputs are not hashed.
+NodeRunOutcome call_node(const NodeRunRequest& request);
+
+/// Does `work` in an arena of its own, hashes its outputs, and takes its times.
+NodeRunOutcome run_in_arena(unsigned threads, const std::function<NodeRunOutcome()>& work);
 
 }  // namespace ballflow

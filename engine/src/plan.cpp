@@ -6,10 +6,13 @@ namespace ballflow {
 
 std::vector<bool> needed_nodes(const Dag& dag) {
   std::vector<bool> needed(dag.nodes.size(), false);
-  for (const DagOutput& output : dag.outputs) needed[output.from.node] = true;
+  const auto need = [&](const EdgeRef& edge) {
+    if (edge.node != loop_input) needed[edge.node] = true;
+  };
+  for (const DagOutput& output : dag.outputs) need(output.from);
   for (std::size_t i = dag.nodes.size(); i-- > 0;) {  // topological order: consumers come later
     if (!needed[i]) continue;
-    for (const auto& [port, edge] : dag.nodes[i].inputs) needed[edge.node] = true;
+    for (const auto& [port, edge] : dag.nodes[i].inputs) need(edge);
   }
   return needed;
 }

@@ -81,6 +81,7 @@ Json run_report(const std::string& id, const Dag& dag, const RunResult& result) 
                  {"reason", r.reason},
                  {"seconds", r.seconds},
                  {"cpu_seconds", r.cpu_seconds}};
+    if (r.iterations) json["iterations"] = *r.iterations;
     json["params"] = Json::object();
     for (const auto& [name, value] : node.params) json["params"][name] = value;
     json["outputs"] = outputs_json(r.outputs);

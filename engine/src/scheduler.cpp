@@ -13,6 +13,7 @@
 
 #include "ballflow/gc.hpp"
 #include "ballflow/run.hpp"
+#include "loop.hpp"
 #include "node_run.hpp"
 #include "quote.hpp"
 
@@ -383,6 +384,7 @@ class Runner::Impl {
       result.seconds = previous->seconds;  // it ran in an earlier round of this run
       result.cpu_seconds = previous->cpu_seconds;
       result.warnings = previous->warnings;
+      result.iterations = previous->iterations;
       return settle(i, NodeStatus::run, previous->reason);
     }
     for (const std::string& warning : entry.warnings)
@@ -398,6 +400,7 @@ class Runner::Impl {
     result.seconds = outcome.seconds;
     result.cpu_seconds = outcome.cpu_seconds;
     result.warnings = outcome.warnings;
+    result.iterations = outcome.iterations;
     if (outcome.status != NodeRunOutcome::Status::ok) {
       result.cause = outcome.cause;
       result.hint = outcome.hint;
@@ -423,7 +426,7 @@ class Runner::Impl {
     request.message = [this, i](bool warning, const std::string& text) {
       emit({Event::Kind::node_message, i, 0, warning, text, nullptr});
     };
-    NodeRunOutcome outcome = run_node(request);
+    NodeRunOutcome outcome = node.loop ? run_loop(request) : run_node(request);
     request.inputs.clear();
     for (const auto& [port, edge] :
          node.inputs) {  // made again for this node alone: nobody else will free them

@@ -1,5 +1,6 @@
 #include "ballflow/schema.hpp"
 
+#include "expand.hpp"
 #include "quote.hpp"
 
 namespace ballflow {
@@ -122,14 +123,41 @@ Json any_node(const Registry& registry, Json& definitions) {
           {"description", "values for the parameters of the subgraph"},
           {"additionalProperties", {{"type", {"number", "boolean", "string"}}}}}}}}};
   rules.push_back({{"if", {{"required", {"graph"}}}}, {"then", {{"$ref", "#/definitions/subgraph"}}}});
+  definitions["loop"] = {
+      {"title", "loop"},
+      {"description",
+       "The graph of another file, run again and again: its outputs go to its inputs of the same names. "
+       "Nothing is "
+       "stored but the final state."},
+      {"type", "object"},
+      {"additionalProperties", false},
+      {"required", {"loop", "until"}},
+      {"properties",
+       {{"loop",
+         {{"type", "string"},
+          {"minLength", 1},
+          {"description", "path of the file of the body, relative to this file"}}},
+        {"doc", {{"type", "string"}}},
+        {"inputs",
+         {{"type", "object"},
+          {"description", "the first states, and what stays the same"},
+          {"additionalProperties", edge_schema("edge to an input of the body")}}},
+        {"params",
+         {{"type", "object"},
+          {"description", "values for the parameters of the body"},
+          {"additionalProperties", {{"type", {"number", "boolean", "string"}}}}}}}}};
+  for (const ParamDecl& setting : loop_settings())
+    definitions["loop"]["properties"][setting.name] = param_schema(setting);
+  rules.push_back({{"if", {{"required", {"loop"}}}}, {"then", {{"$ref", "#/definitions/loop"}}}});
   Json properties = Json::object();
   if (!types.empty()) properties["type"] = {{"description", "node type"}, {"oneOf", std::move(types)}};
   properties["graph"] = {{"type", "string"}};
+  properties["loop"] = {{"type", "string"}};
   properties["doc"] = {{"type", "string"}};
   properties["inputs"] = {{"type", "object"}};
   properties["params"] = {{"type", "object"}};
   return {{"type", "object"},
-          {"oneOf", {{{"required", {"type"}}}, {{"required", {"graph"}}}}},
+          {"oneOf", {{{"required", {"type"}}}, {{"required", {"graph"}}}, {{"required", {"loop"}}}}},
           {"properties", std::move(properties)},
           {"allOf", std::move(rules)}};
 }

@@ -38,10 +38,7 @@ const std::vector<Case>& cases() {
       {"double_torus", "medial_axis", {{"input", "shape:doubleTorus?n=8000"}}, -1},
       {"3cross", "medial_axis", {{"input", "shape:3cross?n=8000"}}, 1},
       {"knot", "medial_axis", {{"input", "shape:knot?n=8000"}}, 0},
-      {"torus_exact",
-       "medial_axis",
-       {{"input", "shape:torus?n=6000"}, {"strategy", "reduce_exact_greedy"}},
-       0},
+      {"torus_hybrid", "medial_axis", {{"input", "shape:torus?n=6000"}, {"strategy", "hybrid"}}, 0},
       {"box_dmt", "dmt", {{"input", "shape:box?n=2000"}}, kNoTopology},
   };
   return all;

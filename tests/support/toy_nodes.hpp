@@ -7,7 +7,7 @@
 
 namespace ballflow::test {
 
-/// Types Points, Balls, Cover (version 1) and the nodes
+/// Types Points, Balls, Cover (version 1; fields remaining and gap) and the nodes
 ///   Load    -> points              file (required, file), scale (number > 0, default 1), mode (choice fast |
 ///   exact) Grow    points [, extra] -> balls   epsilon (number 0..100, default 0.5), steps (integer 1..10,
 ///   default 3),
@@ -17,10 +17,12 @@ namespace ballflow::test {
 ///   Show    balls -> (nothing)
 inline Registry toy_registry() {
   Registry registry;
-  for (const char* type : {"Points", "Balls", "Cover"}) {
+  for (const char* type : {"Points", "Balls"}) {
     registry.add(parse_type_declaration(std::string("{\"id\":\"") + type +
                                         R"(","version":1,"doc":"toy","arrays":[],"summary":[]})"));
   }
+  registry.add(parse_type_declaration(R"({"id":"Cover","version":1,"doc":"toy","arrays":[],"summary":[
+    {"name":"remaining","doc":"what is not covered"},{"name":"gap","doc":"a fraction"}]})"));
   registry.add(
       parse_node_declaration(R"({"id":"Load","version":1,"summary":"Read points.","doc":"","avoid_when":"",
     "cites":[],"libraries":{},"uses_seed":false,"inputs":[],

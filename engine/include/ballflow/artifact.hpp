@@ -59,10 +59,10 @@ class BadArtifact : public Error {
 
 class Artifact {
  public:
-  /// Seals arrays: sorts them, writes the header, computes digest and checksum. `owner` keeps all data
-  /// alive; nothing is copied. `summary` is a JSON object; it is rewritten in canonical form. Throws Error
-  /// (code plugin, because a node library made them) when a name is not unique, a size overflows or a limit
-  /// is passed.
+  /// Seals arrays: sorts them and writes the header. `owner` keeps all data alive and unchanged; nothing is
+  /// copied, and nothing is hashed before somebody asks (states of loops never are). `summary` is a JSON
+  /// object; it is rewritten in canonical form. Throws Error (code plugin, because a node library made them)
+  /// when a name is not unique, a size overflows or a limit is passed.
   static std::shared_ptr<const Artifact> seal(std::string type, int version, std::vector<NamedArray> arrays,
                                               std::string_view summary, std::shared_ptr<const void> owner);
 
@@ -84,8 +84,8 @@ class Artifact {
   const std::vector<NamedArray>& arrays() const { return arrays_; }
   const NamedArray* find(std::string_view name) const;
   const std::string& summary() const { return summary_; }  // canonical JSON object
-  const Digest& digest() const;                            // computed on first use after decode
-  Checksum checksum() const { return checksum_; }
+  const Digest& digest() const;                            // computed on first use
+  Checksum checksum() const;                               // computed on first use, or with the digest
   std::uint64_t file_size() const { return file_size_; }
 
   /// The file as a list of pieces, to be written one after the other.
@@ -95,15 +95,16 @@ class Artifact {
   friend class Store;  // knows the digest of what it loads
   Artifact() = default;
   void settle(const Digest& known) const;
+  void settle(const Checksum& known) const;
 
   std::string type_;
   int version_ = 0;
   std::vector<NamedArray> arrays_;  // in the order of the file
   std::string summary_;
   std::string header_;  // length, JSON and padding
-  mutable std::once_flag digest_once_;
+  mutable std::once_flag digest_once_, checksum_once_;
   mutable Digest digest_;
-  Checksum checksum_;
+  mutable Checksum checksum_;
   std::uint64_t file_size_ = 0;
   std::shared_ptr<const void> owner_;
 };

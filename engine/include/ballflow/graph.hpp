@@ -18,6 +18,16 @@
 // parameter without "default" must be given: by --set at the top, by the including node in a subgraph.
 // An input of a subgraph may be "optional": true. Nodes may have a "doc", the graph a "$schema" for editors.
 // Paths of subgraphs are relative to the file that names them. // and /* */ comments are accepted.
+//
+// A loop is a node whose body is a graph file, run again and again in memory:
+//   "rounds": { "loop": "bodies/round.json", "inputs": { "cover": "matrix.cover" },
+//               "until": "cover.remaining == 0", "max_iterations": 10000, "at_limit": "error" }
+// The outputs of the body are the state: each has an input of the same name and type, which gets it in the
+// next iteration; the other inputs stay what they are. The outputs of the node are the final state. `until`
+// is looked at before every iteration; it compares fields of the summaries of the state with numbers: ==, !=,
+// <, <=, >, >=, joined by `and` and `or` (`and` binds first). A field that is null fulfils no comparison,
+// true is 1. `at_limit` says what happens when max_iterations (default 10000) have run and `until` does not
+// hold: "error" (default), or "stop", which keeps the state reached and warns.
 #pragma once
 
 #include <map>
@@ -39,6 +49,11 @@ struct Place {
   std::string pointer;
 };
 
+/// EdgeRef::node of what a loop body gets from outside; the port is then the name of the input.
+constexpr std::size_t loop_input = static_cast<std::size_t>(-1);
+
+struct Loop;
+
 /// An edge of the flat DAG: output `port` of node `node` (index into Dag::nodes).
 struct EdgeRef {
   std::size_t node = 0;
@@ -51,6 +66,7 @@ struct DagNode {
   std::map<std::string, EdgeRef> inputs;  // connected ports only
   std::map<std::string, Json> params;     // every declared parameter, defaults filled in, checked
   Place place;
+  std::shared_ptr<const Loop> loop;  // of a loop, else null
 };
 
 struct DagOutput {
@@ -68,6 +84,21 @@ struct Dag {
   std::vector<Diagnostic> warnings;
 
   const DagNode* find(const std::string& path) const;
+};
+
+/// What a loop node repeats. DagNode::decl points to `decl`.
+struct Loop {
+  struct Comparison {
+    std::string state, field;
+    enum class Op { equal, unequal, less, at_most, greater, at_least } op = Op::equal;
+    double number = 0;
+  };
+  NodeDeclaration decl;  // made from the interface of the body; settings of the loop are its parameters
+  Dag body;              // outputs: the states; edges from outside have node `loop_input`
+  std::string until;     // as written
+  std::vector<std::vector<Comparison>> conditions;  // holds when all of any holds
+  std::int64_t max_iterations = 0;
+  bool stop_at_limit = false;
 };
 
 /// One --set: "epsilon" or "prune/greedy.mode" (also with dots: "prune.greedy.mode"), and its text.

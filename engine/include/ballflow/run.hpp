@@ -31,7 +31,8 @@ struct NodeResult {
   std::string manifest;                 // of the key; empty when an input never came to be
   std::vector<OutputEntry> outputs;
   std::vector<std::string> warnings;
-  std::string cause, hint;  // of a failure
+  std::optional<std::int64_t> iterations;  // of a loop that ran
+  std::string cause, hint;                 // of a failure
 };
 
 struct RunResult {

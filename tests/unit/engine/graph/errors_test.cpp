@@ -183,8 +183,9 @@ TEST(graph_error, unknown_node_type) {
 
 TEST(graph_error, a_node_is_a_type_or_a_graph) {
   EXPECT_EQ(errors(with_nodes("\"b\":{}")),
-            "g.json:2:1: node \"b\" has neither \"type\" nor \"graph\" (at /nodes/b)\n"
-            "  \"type\" names a node type, \"graph\" the file of a subgraph\n");
+            "g.json:2:1: node \"b\" has no \"type\", \"graph\" or \"loop\" (at /nodes/b)\n"
+            "  \"type\" names a node type, \"graph\" the file of a subgraph, \"loop\" that of the body of a "
+            "loop\n");
   EXPECT_EQ(
       errors(with_nodes("\"b\":{\"type\":\"Load\",\"graph\":\"x.json\"}")),
       "g.json:2:28: node \"b\" has both \"type\" and \"graph\" (at /nodes/b/graph)\n  keep one of them\n");

@@ -54,8 +54,10 @@ struct ballflow::TypeOf<toy::Numbers> {
   static void declare(TypeDecl<toy::Numbers>& d) {
     d.id("Numbers", 1).doc("A list of numbers.");
     d.array("values", &toy::Numbers::values).length("n").doc("the numbers");
-    d.summary("count", "how many").summarize([](const toy::Numbers& v) {
-      return Json{{"count", v.values.size()}};
+    d.summary("count", "how many").summary("first", "the first number, null when there is none");
+    d.summarize([](const toy::Numbers& v) {
+      return Json{{"count", v.values.size()},
+                  {"first", v.values.size() == 0 ? Json(nullptr) : Json(v.values.data()[0])}};
     });
     d.check([](const toy::Numbers& v) {
       for (std::size_t i = 0; i < v.values.size(); ++i) {
@@ -158,6 +160,28 @@ struct Fail {
   }
 };
 
+/// One more, with a warning of its own each time.
+struct Step {
+  In<Numbers> numbers;
+  Out<Numbers> next;
+  double by = 1;
+  double fail_at = -1;
+  static void declare(NodeDecl<Step>& d) {
+    d.id("Step", 1).summary("Counts.");
+    d.input("numbers", &Step::numbers).doc("any");
+    d.output("numbers", &Step::next).doc("all of them greater");
+    d.param("by", &Step::by).doc("how much greater");
+    d.param("fail_at", &Step::fail_at).doc("fails where the first number is this");
+  }
+  void run(RunContext& context) {
+    std::vector<double> v(numbers->values.data(), numbers->values.data() + numbers->values.size());
+    if (!v.empty() && v[0] == fail_at) throw NodeError("cannot count on", "start at another number");
+    for (double& x : v) x += by;
+    if (!v.empty()) context.warn("reached " + std::to_string(static_cast<int>(v[0])));
+    next = Numbers{std::move(v)};
+  }
+};
+
 /// Breaks the promise of determinism: another result at every execution.
 struct Noisy {
   Out<Numbers> numbers;
@@ -233,7 +257,7 @@ struct Babble {
 
 inline const bf_plugin& plugin() {
   static const std::vector<const bf_node*> nodes =
-      node_entries<Source, Add, Round, Slow, Fail, Noisy, Negative, Heavy, FromFile, Babble>();
+      node_entries<Source, Add, Round, Slow, Fail, Step, Noisy, Negative, Heavy, FromFile, Babble>();
   static const std::vector<const bf_type*> types = type_entries<Numbers>();
   static const bf_plugin plugin = {sizeof(bf_plugin),  BALLFLOW_ABI_VERSION, detail::bytes("toy"),
                                    detail::bytes("1"), types.data(),         types.size(),
