@@ -112,12 +112,12 @@ TEST_F(graph_loop, settings_belong_to_loops_and_until_is_needed) {
             "g.json:2:1: loop \"l\" has no \"until\" (at /nodes/l)\n"
             "  \"until\": \"state.field == 0\", a field of the summary of a state\n");
   EXPECT_EQ(errors(with_loop(R"("l":{"graph":"body.json","inputs":{"cover":"m.cover"},"at_limit":"stop"})")),
-            "g.json:2:56: \"at_limit\" is for loops, node \"l\" is none (at /nodes/l/at_limit)\n"
+            "g.json:2:55: \"at_limit\" is for loops, node \"l\" is none (at /nodes/l/at_limit)\n"
             "  \"loop\": \"body.json\" makes a node a loop\n");
   EXPECT_EQ(
       errors(with_loop(
           R"("l":{"loop":"body.json","graph":"body.json","inputs":{"cover":"m.cover"},"until":"cover.gap < 1"})")),
-      "g.json:2:6: node \"l\" has both \"graph\" and \"loop\" (at /nodes/l/loop)\n  keep one of them\n");
+      "g.json:2:13: node \"l\" has both \"graph\" and \"loop\" (at /nodes/l/loop)\n  keep one of them\n");
 }
 
 TEST_F(graph_loop, settings_out_of_range) {
@@ -126,7 +126,7 @@ TEST_F(graph_loop, settings_out_of_range) {
       errors(with_loop(R"("l":{"loop":"body.json","inputs":{"cover":"m.cover"},"until":7,
 "max_iterations":0,
 "at_limit":"stopp"})")),
-      "g.json:2:63: \"until\" must be a text, is 7 (at /nodes/l/until)\n"
+      "g.json:2:62: \"until\" must be a text, is 7 (at /nodes/l/until)\n"
       "  until: ends the loop, looked at before every iteration: fields of the summaries of states compared "
       "with numbers, joined by \"and\" and \"or\", like \"cover.remaining == 0\"\n"
       "g.json:3:18: \"max_iterations\" must be at least 1, is 0 (at /nodes/l/max_iterations)\n"
@@ -171,7 +171,7 @@ TEST_F(graph_loop, until_names_states_and_fields_that_exist) {
       "g.json:2:76: \"until\": the summary of a Balls has no field \"count\" (at /nodes/l/until)\n"
       "  it has no fields\n"
       "g.json:2:90: \"until\": loop \"l\" has no state \"p\" (at /nodes/l/until)\n"
-      "  states are \"b\"\n");
+      "  did you mean \"b\"?\n");
 }
 
 TEST_F(graph_loop, a_wrong_condition_from_an_override_names_the_override) {
@@ -242,7 +242,7 @@ TEST_F(graph_loop, errors_in_the_body_are_all_reported) {
       errors(with_loop(R"("l":{"loop":"body.json","inputs":{"cover":"m.cover"},"until":"cover.gap < 1"})")),
       "body.json:1:28: unknown type \"Covr\" (at /inputs/cover/type)\n"
       "  did you mean \"Cover\"?\n"
-      "body.json:2:21: unknown node type \"Trimm\" (at /nodes/t/type)\n"
+      "body.json:2:22: unknown node type \"Trimm\" (at /nodes/t/type)\n"
       "  did you mean \"Trim\"?\n"
       "body.json:3:71: \"keep\" must be at most 1, is 2 (at /nodes/u/params/keep)\n"
       "  keep: share that stays\n");

@@ -334,7 +334,9 @@ TEST_F(LoopTest, everything_that_may_change_the_result_changes_the_key_and_names
   decl.version = 2;
   changed.body.nodes[0].decl = &decl;
   for (DagNode& node : dag.nodes) {
-    if (node.path == "loop") node.loop = std::make_shared<const Loop>(changed);
+    if (node.path != "loop") continue;
+    node.loop = std::make_shared<const Loop>(changed);
+    node.decl = &node.loop->decl;
   }
   expect_change(dag, "body.nodes.0:Step.version 1 -> 2");
 }
