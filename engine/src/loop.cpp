@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "quote.hpp"
 #include "until.hpp"
 
 namespace ballflow {
@@ -128,6 +129,18 @@ class LoopRun {
 
 NodeRunOutcome run_loop(const NodeRunRequest& request) {
   return run_in_arena(request.threads, [&] { return LoopRun(request).run(); });
+}
+
+std::optional<std::string> file_read_by(const DagNode& node) {
+  for (const ParamDecl& param : node.decl->params) {
+    if (param.kind == ParamKind::file && param.hashed) return plain_text(node.params.at(param.name));
+  }
+  if (node.loop) {
+    for (const DagNode& inner : node.loop->body.nodes) {
+      if (std::optional<std::string> file = file_read_by(inner)) return file;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace ballflow

@@ -10,4 +10,7 @@ namespace ballflow {
 /// are passed on once, and no more than 20 of them. A failure names the node and the iteration.
 NodeRunOutcome run_loop(const NodeRunRequest& request);
 
+/// A file that the node reads, or a node in its body; nothing when none does.
+std::optional<std::string> file_read_by(const DagNode& node);
+
 }  // namespace ballflow

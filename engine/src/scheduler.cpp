@@ -15,7 +15,6 @@
 #include "ballflow/run.hpp"
 #include "loop.hpp"
 #include "node_run.hpp"
-#include "quote.hpp"
 
 namespace ballflow {
 namespace {
@@ -331,13 +330,10 @@ class Runner::Impl {
   /// changed in between must not be found under the key of the former content.
   void check_files(std::size_t i) {
     const DagNode& node = dag_.nodes[i];
-    for (const ParamDecl& param : node.decl->params) {
-      if (param.kind != ParamKind::file || !param.hashed) continue;
-      if (key_of(node).key == states_[i]->key->key) return;
-      throw Error(ExitCode::node_failed,
-                  plain_text(node.params.at(param.name)) + " changed while the run was reading it",
-                  "wait until its writer is done, then run again");
-    }
+    const std::optional<std::string> file = file_read_by(node);
+    if (!file || key_of(node).key == states_[i]->key->key) return;
+    throw Error(ExitCode::node_failed, *file + " changed while the run was reading it",
+                "wait until its writer is done, then run again");
   }
 
   /// Takes the estimate of the node's memory from the budget; false: put aside until a node has ended.

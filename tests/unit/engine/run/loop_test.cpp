@@ -341,6 +341,27 @@ TEST_F(LoopTest, everything_that_may_change_the_result_changes_the_key_and_names
   expect_change(dag, "body.nodes.0:Step.version 1 -> 2");
 }
 
+TEST_F(LoopTest, a_file_that_changes_while_the_body_reads_it_is_a_failure) {
+  const std::string file = folder.file("number");
+  test::write_file(file, "1");
+  const Dag dag = graph(R"({ "inputs": { "n": { "type": "Numbers" }, "one": { "type": "Numbers" } },
+    "nodes": { "read": { "type": "FromFile", "params": { "file": ")" +
+                            file + R"(" } },
+               "add": { "type": "Add", "inputs": { "a": "inputs.n", "b": "read.numbers" } } },
+    "outputs": { "n": "add.sum" } })",
+                        "n.first >= 3");
+  EXPECT_EQ(run(dag, store()).status, ExitCode::ok);
+  EXPECT_EQ(last, 3);
+  test::write_file(file, "2");
+  EXPECT_EQ(run(dag, store()).status, ExitCode::ok);
+  EXPECT_EQ(last, 4) << "its content is part of the key";
+  toy::FromFile::before_reading = [](const std::string& path) { test::write_file(path, "5.5"); };
+  test::write_file(file, "3");
+  const RunResult changed = run(dag, store());
+  toy::FromFile::before_reading = nullptr;
+  EXPECT_EQ(of_loop(dag, changed).cause, file + " changed while the run was reading it");
+}
+
 TEST_F(LoopTest, progress_is_how_far_the_first_field_has_come) {
   const Dag dag = graph(R"({ "inputs": { "n": { "type": "Numbers" }, "one": { "type": "Numbers" } },
     "nodes": { "add": { "type": "Add", "inputs": { "a": "inputs.n", "b": "inputs.one" } },
