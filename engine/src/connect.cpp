@@ -458,8 +458,7 @@ class Connector {
     dag.doc = top().doc;
     for (std::size_t i = 0; i < top().params.size(); ++i)
       dag.params[top().params[i].decl.name] = *expansion_.scopes[0].params[i];
-    std::vector<std::size_t> place(
-        expansion_.leaves.size());  // in the graph, or in the loop body it belongs to
+    std::vector<std::size_t> place(expansion_.leaves.size());  // in the graph or the loop body around it
     for (const std::size_t i : order) {
       const Leaf& leaf = expansion_.leaves[i];
       const std::size_t around = expansion_.scopes[leaf.scope].loop;

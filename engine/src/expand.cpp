@@ -546,8 +546,7 @@ const std::vector<ParamDecl>& loop_settings() {
     until.name = "until";
     until.doc =
         "ends the loop, looked at before every iteration: fields of the summaries of states compared with "
-        "numbers, "
-        "joined by \"and\" and \"or\", like \"cover.remaining == 0\"";
+        "numbers, joined by \"and\" and \"or\", like \"cover.remaining == 0\"";
     until.required = true;
     most.name = "max_iterations";
     most.doc = "how often the body runs at most";

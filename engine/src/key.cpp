@@ -155,7 +155,7 @@ Json body_manifest(const Dag& body, Store& store) {
     Json one = node_manifest(body.nodes[i], store);
     one["inputs"] = Json::object();
     for (const auto& [port, edge] : body.nodes[i].inputs) one["inputs"][port] = source(edge);
-    nodes[name(i)] = std::move(one);
+    nodes.get_ref<Json::object_t&>().emplace_back(name(i), std::move(one));  // names are unique
   }
   for (const DagOutput& output : body.outputs) states[output.name] = source(output.from);
   return {{"nodes", std::move(nodes)}, {"states", std::move(states)}};

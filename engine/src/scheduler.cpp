@@ -518,6 +518,7 @@ class Runner::Impl {
       result.reason = "its artifact was needed and not stored";
       result.seconds += outcome.seconds;
       result.cpu_seconds += outcome.cpu_seconds;
+      result.iterations = outcome.iterations;
     }
     state.held = outcome.outputs;
     emit({Event::Kind::node_finished, edge.node, 1, false, {}, &result});

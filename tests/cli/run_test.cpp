@@ -107,6 +107,7 @@ TEST_F(CliTest, swapping_the_strategy_reruns_only_the_pruning_and_what_follows) 
   EXPECT_EQ(status.at("enlarge"), "hit");
   EXPECT_EQ(status.at("matrix"), "hit");
   EXPECT_EQ(status.at("alpha"), "run");
+  EXPECT_GE(report().at("nodes").at("prune/rounds").at("iterations").get<int>(), 1);
 }
 
 TEST_F(CliTest, plan_and_check_say_what_a_run_would_do) {

@@ -113,7 +113,9 @@ void print_result(const Dag& dag, const RunResult& result) {
         break;
     }
     const bool good = node.status == NodeStatus::hit || node.status == NodeStatus::run;
-    rows.push_back({dag.nodes[i].path, status, seconds, good ? describe(node.outputs) : node.reason});
+    std::string text = good ? describe(node.outputs) : node.reason;
+    if (node.iterations) text += " (" + grouped(*node.iterations) + " iterations)";
+    rows.push_back({dag.nodes[i].path, status, seconds, text});
   }
   std::printf("\n");
   print_table(rows);

@@ -39,7 +39,7 @@ struct LoopTest : testing::Test {
     toy::reset();
   }
 
-  /// zero and one -> loop -> out; `settings` begin with a comma where they are more than `until`.
+  /// zero and one -> loop -> out; `settings` of the loop begin with a comma.
   Dag graph(const std::string& body, const std::string& until, const std::string& settings = "",
             const std::vector<Override>& overrides = {}) {
     test::write_file(folder.file("body.json"), body);

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <functional>
+#include <thread>
 
 #include "ballflow/error.hpp"
 #include "probe.hpp"
@@ -60,6 +61,24 @@ std::string seal_failure(std::vector<NamedArray> arrays, const std::string& summ
 const std::vector<double> reals{1.0, -2.5};
 const std::vector<std::uint8_t> bytes3{1, 2, 3};
 const std::vector<std::int32_t> seven{7};
+
+TEST(artifact, gives_the_same_sums_whichever_is_asked_for_first_and_in_several_threads) {
+  const std::vector<double> values(100'000, 1.5);
+  const auto sealed = [&] {
+    return Artifact::seal("Numbers", 1, {{"values", BF_F64, {values.size()}, values.data()}}, "{}", nullptr);
+  };
+  const auto digest_first = sealed(), checksum_first = sealed(), both = sealed();
+  const Digest digest = digest_first->digest();
+  const Checksum checksum = checksum_first->checksum();
+  EXPECT_TRUE(digest_first->checksum() == checksum);
+  EXPECT_TRUE(checksum_first->digest() == digest);
+  Hasher hasher;
+  for (const auto& piece : both->pieces()) hasher.add(piece.data(), piece.size());
+  EXPECT_TRUE(hasher.finish() == digest);
+  std::thread other([&] { EXPECT_TRUE(both->digest() == digest); });
+  EXPECT_TRUE(both->checksum() == checksum);
+  other.join();
+}
 
 }  // namespace
 
