@@ -9,7 +9,6 @@
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 #include <CGAL/property_map.h>
 #include <CGAL/spatial_sort.h>
-#include <CGAL/version.h>
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -540,7 +539,5 @@ PoleSet voronoi_poles(const PointSet& sample, const VoronoiPolesOptions& options
   diagram.build(monitor);
   return diagram.poles(monitor);
 }
-
-const char* voronoi_poles_cgal_version() { return CGAL_VERSION_STR; }
 
 }  // namespace ballflow::geometry

@@ -47,7 +47,4 @@ struct VoronoiPolesOptions {
 PoleSet voronoi_poles(const PointSet& sample, const VoronoiPolesOptions& options,
                       Monitor& monitor = no_monitor());
 
-/// Version of the library that builds the triangulation.
-const char* voronoi_poles_cgal_version();
-
 }  // namespace ballflow::geometry

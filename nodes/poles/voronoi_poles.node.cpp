@@ -3,6 +3,7 @@
 #include <ballflow/sdk.hpp>
 
 #include "types/artifact_types.hpp"
+#include "types/cgal_version.hpp"
 
 namespace ballflow::nodes {
 namespace {
@@ -30,7 +31,7 @@ struct VoronoiPoles {
         "the points do not sample a surface: poles of points that fill a volume or follow curves mean "
         "nothing.");
     d.cites("amenta1999", "section 4, poles").cites("kornberger2010", "3.3, 3.4");
-    d.library("CGAL", geometry::voronoi_poles_cgal_version());
+    d.library("CGAL", geometry::cgal_version());
     d.memory(1 << 20, 40);
     d.input("points", &VoronoiPoles::points).doc("n points on a surface, model units");
     d.output("poles", &VoronoiPoles::poles)
