@@ -76,7 +76,7 @@ class EveryStrategy : public testing::TestWithParam<std::string> {};
 TEST_P(EveryStrategy, prunes_in_any_graph_with_equal_digests_for_any_number_of_threads) {
   const Dag dag = load_graph(test::source_file("graphs/medial_axis.json"), registry(),
                              {{"input", "shape:torus?n=3000"}, {"strategy", GetParam()}});
-  const auto results = run_with_threads(dag, {1, 4});
+  const auto results = run_with_threads(dag, {1, 2, 4});
   ASSERT_EQ(results[0].status, ExitCode::ok);
   expect_equal_digests(dag, results);
   const DagNode* select = dag.find("select");
