@@ -16,6 +16,7 @@
 #include <thread>
 
 #include "ballflow/error.hpp"
+#include "child_process.hpp"
 #include "faulty_file_system.hpp"
 #include "probe.hpp"
 #include "test_data.hpp"
@@ -99,22 +100,6 @@ class GcTest : public ::testing::Test {
   const std::string root = folder.file("cache");
   const std::shared_ptr<FaultyFileSystem> files = std::make_shared<FaultyFileSystem>();
 };
-
-template <class Body>
-pid_t start(Body body) {
-  const pid_t child = ::fork();
-  if (child == 0) {
-    body();
-    ::_exit(0);
-  }
-  return child;
-}
-
-int finish(pid_t child) {
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  return status;
-}
 
 }  // namespace
 

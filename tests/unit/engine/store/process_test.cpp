@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "ballflow/store.hpp"
+#include "child_process.hpp"
 #include "faulty_file_system.hpp"
 #include "probe.hpp"
 #include "test_data.hpp"
@@ -41,22 +42,6 @@ class ProcessTest : public ::testing::Test {
   const std::string root = folder.file("cache");
   const Digest key = sha256("key");
 };
-
-template <class Body>
-pid_t start(Body body) {
-  const pid_t child = ::fork();
-  if (child == 0) {
-    body();
-    ::_exit(0);
-  }
-  return child;
-}
-
-int finish(pid_t child) {
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  return status;
-}
 
 /// The id of a process that has ended.
 pid_t dead_process() {
