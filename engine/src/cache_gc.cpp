@@ -13,6 +13,7 @@
 #include "ballflow/error.hpp"
 #include "ballflow/gc.hpp"
 #include "ballflow/graph.hpp"
+#include "run_folders.hpp"
 #include "store_folders.hpp"
 
 namespace ballflow {
@@ -415,6 +416,10 @@ Collected collect(Store& store, const CollectOptions& options) {
     quarantined.emplace_back(name, disk_bytes(static_cast<std::uint64_t>(status.st_size)));
     total += quarantined.back().second;
   }
+  const std::vector<RunFolder> runs = run_folders(folders);
+  std::uint64_t run_bytes = 0;
+  for (const RunFolder& run : runs) run_bytes += run.bytes;
+  total += run_bytes;
   result.bytes_before = total;
 
   if (total > options.limit) {
@@ -424,6 +429,12 @@ Collected collect(Store& store, const CollectOptions& options) {
       if (!options.dry_run && folders.files->remove(folders.quarantine, name) < 0) continue;
       total -= bytes;
       ++result.quarantined;
+    }
+    for (std::size_t i = 0; i + 1 < runs.size() && run_bytes > target / 20; ++i) {  // the latest stays
+      if (!options.dry_run) remove_run(folders, runs[i].name);
+      run_bytes -= runs[i].bytes;
+      total -= runs[i].bytes;
+      ++result.runs;
     }
     std::set<Digest> keep, gone;
     for (const CachedArtifact& artifact : contents.artifacts) {

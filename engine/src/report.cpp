@@ -6,21 +6,13 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
+
+#include "ballflow/history.hpp"
 
 namespace ballflow {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// One folder per graph file: the latest run is what reasons are compared with.
-fs::path latest_folder(const Store& store, const std::string& graph_file) {
-  std::error_code error;
-  const fs::path absolute = fs::weakly_canonical(graph_file, error);
-  const std::string name = sha256(error ? graph_file : absolute.string()).hex().substr(0, 32);
-  return fs::path(store.root()) / "runs" / ("latest-" + name);
-}
 
 Json outputs_json(const std::vector<OutputEntry>& outputs) {
   Json json = Json::object();
@@ -32,12 +24,6 @@ Json outputs_json(const std::vector<OutputEntry>& outputs) {
                          {"summary", summary.is_discarded() ? Json::object() : std::move(summary)}};
   }
   return json;
-}
-
-/// Foreign text (warnings of nodes, names of files) need not be UTF-8; it must not cost the record.
-template <class AnyJson>
-std::string text_of(const AnyJson& json, int indent) {
-  return json.dump(indent, ' ', false, AnyJson::error_handler_t::replace);
 }
 
 }  // namespace
@@ -67,6 +53,7 @@ Json run_report(const std::string& id, const Dag& dag, const RunResult& result) 
                  {"seconds", result.seconds},
                  {"cpu_seconds", result.cpu_seconds},
                  {"peak_rss_bytes", result.peak_rss_bytes}};
+  if (std::string start = start_of_run(id); !start.empty()) report["started"] = std::move(start);
   report["params"] = Json::object();
   for (const auto& [name, value] : dag.params) report["params"][name] = value;
   Json nodes = Json::object();
@@ -102,41 +89,6 @@ Json run_report(const std::string& id, const Dag& dag, const RunResult& result) 
   }
   report["outputs"] = std::move(outputs);
   return report;
-}
-
-Manifests load_manifests(Store& store, const std::string& graph_file) {
-  Manifests manifests;
-  if (store.root().empty()) return manifests;
-  std::ifstream in(latest_folder(store, graph_file) / "manifests.json", std::ios::binary);
-  if (!in) return manifests;
-  std::ostringstream text;
-  text << in.rdbuf();
-  const auto json = nlohmann::json::parse(text.str(), nullptr, false);
-  if (!json.is_object()) return manifests;
-  for (const auto& [path, manifest] : json.items()) {
-    if (manifest.is_string()) manifests[path] = manifest.get<std::string>();
-  }
-  return manifests;
-}
-
-void save_latest(Store& store, const std::string& graph_file, const RunResult& result, const Dag& dag,
-                 const Json& report) {
-  if (store.root().empty() || store.read_only()) return;
-  auto manifests = nlohmann::json::object();  // not ordered_json: that looks a name up by linear search
-  for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
-    const NodeResult& node = result.nodes[i];
-    if (!node.manifest.empty()) manifests[dag.nodes[i].path] = node.manifest;
-  }
-  const fs::path folder = latest_folder(store, graph_file);
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) return;
-  try {
-    write_atomically((folder / "manifests.json").string(), text_of(manifests, -1));
-    write_atomically((folder / "report.json").string(), text_of(report, 1));
-  } catch (const Error&) {
-    // A full disk costs reasons of the next run, not this run.
-  }
 }
 
 void write_atomically(const std::string& named, std::string_view content) {

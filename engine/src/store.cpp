@@ -37,6 +37,7 @@
 
 #include "ballflow/error.hpp"
 #include "ballflow/file_system.hpp"
+#include "run_folders.hpp"
 #include "store_folders.hpp"
 
 namespace ballflow {
@@ -821,7 +822,7 @@ std::unique_ptr<Store::Lock> Store::lock(const Digest& key, const std::function<
   }
 }
 
-std::string Store::new_run_folder(const std::string& id) {
+bool Store::put_run(const std::string& id, const std::vector<std::pair<std::string, std::string>>& files) {
   const auto plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
            c == '_' || c == '-';
@@ -829,17 +830,24 @@ std::string Store::new_run_folder(const std::string& id) {
   if (id.empty() || id.front() == '.' || !std::all_of(id.begin(), id.end(), plain)) {
     throw Error(ExitCode::store, "\"" + id + "\" cannot be the name of a run folder");
   }
-  if (!impl_->writing) return {};
-  std::string name = id;
-  for (int number = 2;; ++number) {
-    const int made = impl_->files->make_folder(impl_->runs.get(), name, folder_mode);
-    if (made >= 0) return root_ + "/runs/" + name;
-    if (made != -EEXIST) {
-      impl_->failed("runs/" + name, made);
-      return {};
+  if (!impl_->writing || impl_->files->make_folder(impl_->runs.get(), id, folder_mode) < 0) return false;
+  std::uint64_t bytes = 0;
+  const bool written = [&] {
+    const OpenFile folder(*impl_->files, impl_->files->open(impl_->runs.get(), id, folder_flags));
+    if (!folder.is_open()) return false;
+    for (const auto& [name, text] : files) {
+      std::optional<Impl::Draft> draft;
+      if (impl_->write_draft({std::as_bytes(std::span(text))}, false, draft) < 0) return false;
+      if (impl_->files->rename(draft->place->folder.get(), draft->name, folder.get(), name, true) < 0)
+        return false;
+      draft->gone = true;
+      bytes += disk_bytes(text.size());
     }
-    name = id + '-' + std::to_string(number);
-  }
+    return true;
+  }();
+  if ((impl_->added += bytes) >= account_at) account();
+  if (!written) remove_run(StoreFolders(*this), id);
+  return written;
 }
 
 void Store::account() { impl_->account(); }
@@ -875,6 +883,7 @@ StoreFolders::StoreFolders(Store& store)
       root(store.impl_->root.get()),
       cas(store.impl_->cas.get()),
       ac(store.impl_->ac.get()),
+      runs(store.impl_->runs.get()),
       pins(store.impl_->pins.get()),
       quarantine(store.impl_->quarantine.get()),
       memos(store.impl_->memos.get()),

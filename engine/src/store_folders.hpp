@@ -64,7 +64,7 @@ inline constexpr std::int64_t touch_interval = std::int64_t{3600} * 1'000'000'00
 /// The open folders of a store; negative when a folder is absent.
 struct StoreFolders {
   FileSystem* files;
-  int root, cas, ac, pins, quarantine, memos, locks, leases;
+  int root, cas, ac, runs, pins, quarantine, memos, locks, leases;
   bool writing;
 
   explicit StoreFolders(Store& store);

@@ -147,9 +147,11 @@ int collect_garbage(const Common& common, const std::string& size, bool dry_run)
   if (dry_run) {
     for (const Digest& digest : done.removed) std::printf("would remove %s\n", digest.hex().c_str());
   }
-  std::printf("%s %s artifacts, %s action entries, %s digests of input files, %s quarantined files\n",
-              dry_run ? "would remove" : "removed", count(done.artifacts).c_str(),
-              count(done.actions).c_str(), count(done.memos).c_str(), count(done.quarantined).c_str());
+  std::printf(
+      "%s %s artifacts, %s action entries, %s digests of input files, %s quarantined files, %s "
+      "records of runs\n",
+      dry_run ? "would remove" : "removed", count(done.artifacts).c_str(), count(done.actions).c_str(),
+      count(done.memos).c_str(), count(done.quarantined).c_str(), count(done.runs).c_str());
   std::printf("%s before, %s after, limit %s\n", size_text(done.bytes_before).c_str(),
               size_text(done.bytes_after).c_str(), limit_text(limit).c_str());
   if (!done.complete) {

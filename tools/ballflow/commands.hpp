@@ -39,6 +39,7 @@ using Action = std::function<int()>;
 
 void add_run(CLI::App& app, Common& common, Action& action);
 void add_plan(CLI::App& app, Common& common, Action& action);
+void add_runs(CLI::App& app, Common& common, Action& action);
 void add_check(CLI::App& app, Common& common, Action& action);
 void add_nodes(CLI::App& app, Common& common, Action& action);
 void add_cache(CLI::App& app, Common& common, Action& action);

@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   cli::Action action;
   cli::add_run(app, common, action);
   cli::add_plan(app, common, action);
+  cli::add_runs(app, common, action);
   cli::add_check(app, common, action);
   cli::add_nodes(app, common, action);
   cli::add_cache(app, common, action);

@@ -1,6 +1,6 @@
 #include <cstdio>
 
-#include "ballflow/report.hpp"
+#include "ballflow/history.hpp"
 #include "ballflow/text.hpp"
 #include "commands.hpp"
 #include "terminal.hpp"
@@ -19,7 +19,7 @@ int show_plan(const Common& common, const PlanArguments& arguments) {
   for (const Diagnostic& warning : dag.warnings) std::fprintf(stderr, "%s\n", warning.text().c_str());
   const auto store = common.store();
   const std::vector<NodePlan> plans =
-      plan(dag, *store, arguments.seed, load_manifests(*store, arguments.graph.file));
+      plan(dag, *store, arguments.seed, latest_manifests(*store, arguments.graph.file));
   std::vector<std::vector<std::string>> rows = {{"node", "", "why"}};
   for (std::size_t i = 0; i < plans.size(); ++i) {
     using Verdict = NodePlan::Verdict;

@@ -7,10 +7,10 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
-#include <ctime>
 #include <filesystem>
 
 #include "ballflow/gc.hpp"
+#include "ballflow/history.hpp"
 #include "ballflow/report.hpp"
 #include "ballflow/text.hpp"
 #include "commands.hpp"
@@ -37,16 +37,6 @@ struct RunArguments {
   std::uint64_t seed = 0;
   bool quiet = false;
 };
-
-/// "20261122T141503-4711": sorts by time, unique on one machine.
-std::string run_id() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y%m%dT%H%M%S", &utc);
-  return std::string(text) + "-" + std::to_string(getpid());
-}
 
 std::string quoted(const std::string& text) {
   if (text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+%@") ==
@@ -180,6 +170,7 @@ int run(const Common& common, const RunArguments& arguments) {
   if (!common.no_cache && !store->why().empty()) {
     std::fprintf(stderr, "warning: the cache is not written: %s\n", store->why().c_str());
   }
+  const std::string id = new_run_id(arguments.graph.file);
   const KeepWithin collect_at_the_end(store, common.cache_limit(*store));
 
   std::signal(SIGINT, on_interrupt);
@@ -191,7 +182,7 @@ int run(const Common& common, const RunArguments& arguments) {
   options.seed = arguments.seed;
   options.cancel = &cancel_requested;
   const auto display = arguments.quiet ? no_display() : progress_display(dag, isatty(STDERR_FILENO) != 0);
-  Runner runner(dag, *registry, store, options, *display, load_manifests(*store, arguments.graph.file));
+  Runner runner(dag, *registry, store, options, *display, latest_manifests(*store, arguments.graph.file));
   const RunResult& result = runner.run();
 
   WrittenOutputs written;
@@ -202,8 +193,8 @@ int run(const Common& common, const RunArguments& arguments) {
   if (const std::string trouble = store->trouble(); !trouble.empty()) {
     std::fprintf(stderr, "warning: not everything could be cached: %s\n", trouble.c_str());
   }
-  const Json report = run_report(run_id(), dag, result);
-  save_latest(*store, arguments.graph.file, result, dag, report);
+  const Json report = run_report(id, dag, result);
+  save_run(*store, id, dag, result, report);
   bool reported = false;
   if (!arguments.report.empty()) {
     try {

@@ -8,8 +8,9 @@
 // that node that are in the store (they are lost and made again together), in blocks of 4 KiB; `age`: since
 // the last use, at least a second. An artifact of several actions has the best score among them. One that no
 // action names any more has the score 0; equal scores go by age, then by digest. Before the artifacts go
-// quarantined files; action entries and memoised digests may take a tenth of the limit, beyond it those that
-// were not used for longest go. An action entry without its artifacts is still a hit, so it stays otherwise.
+// quarantined files; the records of runs may take a twentieth of the limit, action entries and memoised
+// digests a tenth, beyond it those go that ended, or were used, longest ago. An action entry without its
+// artifacts is still a hit, so it stays otherwise.
 //
 // Last use is the mtime of a file: of the entry that was a hit, of the artifact that was mapped. It is set at
 // most once an hour, so a hit does not cost a write.
@@ -91,8 +92,8 @@ struct Collected {
   bool busy = false;                                // another process is at it; nothing was done
   bool complete = false;                            // at most `limit` is left
   std::uint64_t bytes_before = 0, bytes_after = 0;  // of everything that counts, in blocks of 4 KiB
-  std::uint64_t artifacts = 0, actions = 0, memos = 0, quarantined = 0;  // removed, or would be
-  std::uint64_t pinned_bytes = 0;                                        // of pinned artifacts
+  std::uint64_t artifacts = 0, actions = 0, memos = 0, quarantined = 0, runs = 0;  // removed, or would be
+  std::uint64_t pinned_bytes = 0;                                                  // of pinned artifacts
   std::uint64_t live_runs = 0;
   std::vector<Digest> removed;  // the artifacts, in order
 };

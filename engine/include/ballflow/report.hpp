@@ -9,16 +9,8 @@ namespace ballflow {
 
 std::string_view to_string(ExitCode status);
 
-/// Everything that happened in a run. `id` names the run.
+/// Everything that happened in a run. `id` names the run (history.hpp).
 Json run_report(const std::string& id, const Dag& dag, const RunResult& result);
-
-/// Key manifests of the latest run of this graph file that used `store`; empty when there was none.
-Manifests load_manifests(Store& store, const std::string& graph_file);
-
-/// Keeps the manifests and the report of a run as the latest of its graph file. Quietly does nothing when
-/// the store cannot be written.
-void save_latest(Store& store, const std::string& graph_file, const RunResult& result, const Dag& dag,
-                 const Json& report);
 
 /// Writes a file so that readers see the old or the new content, never a part. Pipes and devices are written
 /// to as they are. Throws Error (code store).

@@ -2,7 +2,7 @@
 //
 //   <root>/cas/ab/cdef...   artifacts, named by the SHA-256 of their bytes (sha256sum verifies the cache)
 //   <root>/ac/ab/cdef...    action entries, named by action key: what a node produced for that key
-//   <root>/runs/            one folder per run: its report
+//   <root>/runs/            one folder per recorded run (history.hpp)
 //   <root>/pins/            one empty file per digest that is never collected
 //   <root>/tmp/             files being written, <host>-<boot>-<pid>-<random>/
 //   <root>/quarantine/      blobs that failed their check
@@ -31,6 +31,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ballflow/artifact.hpp"
@@ -127,10 +128,10 @@ class Store {
   };
   std::unique_ptr<Lock> lock(const Digest& key, const std::function<bool()>& give_up);
 
-  /// A new folder runs/<id>/ for the report of a run (runs/<id>-2/ when there is one, and so on); empty when
-  /// nothing can be written. `id`: letters, digits, '.', '_' and '-', not starting with a dot; else throws
-  /// Error.
-  std::string new_run_folder(const std::string& id);
+  /// Puts texts by file name into a new folder runs/<id>/, in this order (history.hpp). False, and nothing is
+  /// left, when that is there already or cannot be written. `id`: letters, digits, '.', '_' and '-', not
+  /// starting with a dot; else throws Error.
+  bool put_run(const std::string& id, const std::vector<std::pair<std::string, std::string>>& files);
 
   struct Statistics {
     std::uint64_t blobs = 0, blob_bytes = 0, actions = 0, action_bytes = 0, quarantined = 0, runs = 0;

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "ballflow/history.hpp"
 #include "ballflow/report.hpp"
 #include "test_data.hpp"
 #include "toy_nodes.hpp"
@@ -357,9 +358,9 @@ TEST_F(RunTest, nonsense_of_a_node_reaches_nobody_raw) {
   const RunResult result = run(dag, cache);
   EXPECT_EQ(result.status, ExitCode::ok);
   for (const double fraction : events.fractions) EXPECT_TRUE(fraction >= 0 && fraction <= 1) << fraction;
-  const Json report = run_report("id", dag, result);
-  EXPECT_NO_THROW(save_latest(*cache, "babble.json", result, dag, report));
-  EXPECT_FALSE(load_manifests(*cache, "babble.json").empty());
+  const std::string id = new_run_id("babble.json");
+  EXPECT_TRUE(save_run(*cache, id, dag, result, run_report(id, dag, result)));
+  EXPECT_FALSE(latest_manifests(*cache, "babble.json").empty());
 }
 
 TEST_F(RunTest, a_display_that_throws_costs_no_result) {

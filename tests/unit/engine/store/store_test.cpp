@@ -201,7 +201,7 @@ TEST_F(StoreTest, statistics_count_what_is_there) {
     store->put_blob(*artifact, false);
   }
   store->put_action(key, action);
-  store->new_run_folder("run");
+  store->put_run("run", {});
   const Store::Statistics total = store->statistics();
   EXPECT_EQ(total.blobs, 20u);
   EXPECT_EQ(total.blob_bytes, bytes);
@@ -211,13 +211,14 @@ TEST_F(StoreTest, statistics_count_what_is_there) {
   EXPECT_EQ(total.quarantined, 0u);
 }
 
-TEST_F(StoreTest, run_folders_are_always_new) {
+TEST_F(StoreTest, a_run_is_recorded_once_and_as_a_whole) {
   const auto store = open();
-  EXPECT_EQ(store->new_run_folder("2010-01-02_3"), root + "/runs/2010-01-02_3");
-  EXPECT_EQ(store->new_run_folder("2010-01-02_3"), root + "/runs/2010-01-02_3-2");
-  EXPECT_TRUE(fs::is_directory(root + "/runs/2010-01-02_3-2"));
+  EXPECT_TRUE(store->put_run("2010-01-02_3", {{"a", "1"}, {"b", "2"}}));
+  EXPECT_FALSE(store->put_run("2010-01-02_3", {{"a", "3"}}));
+  EXPECT_EQ(test::read_file(root + "/runs/2010-01-02_3/a"), "1");
+  EXPECT_EQ(test::read_file(root + "/runs/2010-01-02_3/b"), "2");
   for (const std::string bad : {"", ".", "..", "../x", "a/b", ".hidden", "a b"}) {
-    EXPECT_THROW(store->new_run_folder(bad), Error) << bad;
+    EXPECT_THROW(store->put_run(bad, {}), Error) << bad;
   }
 }
 
@@ -230,7 +231,7 @@ TEST_F(StoreTest, without_a_folder_everything_is_a_miss) {
   EXPECT_FALSE(store->has_blob(action.outputs[0]));
   EXPECT_EQ(store->load(action.outputs[0]), nullptr);
   EXPECT_EQ(store->lock(key, {}), nullptr);
-  EXPECT_EQ(store->new_run_folder("run"), "");
+  EXPECT_FALSE(store->put_run("run", {}));
   EXPECT_EQ(store->statistics().blobs, 0u);
   test::write_file(folder.file("input"), "abc");
   EXPECT_EQ(store->file_digest(folder.file("input")), sha256("abc"));
@@ -412,7 +413,7 @@ TEST_F(StoreTest, fails_softly_when_the_whole_store_vanishes) {
   EXPECT_FALSE(store->put_blob(*make_probe(2), false));
   EXPECT_FALSE(store->put_action(key, action));
   EXPECT_EQ(store->load(entry_for(*probe)), nullptr);
-  EXPECT_EQ(store->new_run_folder("run"), "");
+  EXPECT_FALSE(store->put_run("run", {}));
 }
 
 TEST_F(StoreTest, folders_that_others_may_write_are_refused) {
