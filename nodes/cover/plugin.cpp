@@ -5,6 +5,7 @@
 namespace ballflow::nodes {
 
 const bf_node* cover_matrix_entry();
+const bf_node* load_cover_entry();
 const bf_node* reduce_entry();
 const bf_node* ip_solve_entry();
 const bf_node* greedy_entry();
@@ -14,8 +15,8 @@ const bf_node* verify_cover_entry();
 
 BALLFLOW_PLUGIN("cover", "0.1.0",
                 (std::vector<const bf_node*>{
-                    ballflow::nodes::cover_matrix_entry(), ballflow::nodes::reduce_entry(),
-                    ballflow::nodes::ip_solve_entry(), ballflow::nodes::greedy_entry(),
-                    ballflow::nodes::verify_cover_entry()}),
+                    ballflow::nodes::cover_matrix_entry(), ballflow::nodes::load_cover_entry(),
+                    ballflow::nodes::reduce_entry(), ballflow::nodes::ip_solve_entry(),
+                    ballflow::nodes::greedy_entry(), ballflow::nodes::verify_cover_entry()}),
                 (ballflow::type_entries<ballflow::geometry::Balls, ballflow::geometry::PointSet,
                                         ballflow::geometry::CoverState, ballflow::geometry::CoverCheck>()))

@@ -11,8 +11,8 @@ namespace {
 
 const std::vector<TypeFormats>& table() {
   static const std::vector<TypeFormats> types = {
-      point_set_formats(), triangle_mesh_formats(),      balls_formats(),
-      pole_set_formats(),  simplicial_complex_formats(), medial_axis_formats()};
+      point_set_formats(),   triangle_mesh_formats(),      balls_formats(),      pole_set_formats(),
+      cover_state_formats(), simplicial_complex_formats(), medial_axis_formats()};
   return types;
 }
 
@@ -21,7 +21,11 @@ std::vector<Format> formats_of(std::string_view type) {
   for (const TypeFormats& entry : table()) {
     if (entry.type == type) formats = entry.formats;
   }
-  for (const Format& generic : generic_formats()) formats.push_back(generic);
+  for (const Format& generic : generic_formats()) {
+    const bool known = std::any_of(formats.begin(), formats.end(),
+                                   [&](const Format& format) { return format.name == generic.name; });
+    if (!known) formats.push_back(generic);
+  }
   return formats;
 }
 

@@ -4,6 +4,7 @@
 //   TriangleMesh       ply obj off stl
 //   Balls              ply csv obj            radius as a vertex property (ply) or column (csv); obj: centers
 //   PoleSet            ply csv                radius and label (0 unlabelled, 1 inner, 2 outer)
+//   CoverState         json scp lp           what is left of the matrix: OR-Library, LP format
 //   SimplicialComplex  ply obj off            triangles that are not interior, edges in no triangle (not in
 //   off) MedialAxis         ply obj off            polygons, edges that bound none (not in off), radii (ply)
 //   every type         json safetensors       type, summary and shapes; the artifact itself, byte for byte

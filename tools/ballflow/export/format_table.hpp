@@ -23,6 +23,7 @@ TypeFormats point_set_formats();
 TypeFormats triangle_mesh_formats();
 TypeFormats balls_formats();
 TypeFormats pole_set_formats();
+TypeFormats cover_state_formats();
 TypeFormats simplicial_complex_formats();
 TypeFormats medial_axis_formats();
 

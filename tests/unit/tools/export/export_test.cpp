@@ -456,5 +456,17 @@ TEST(export_any, names_the_file_that_cannot_be_written) {
   }
 }
 
+TEST(CoverStates, are_json_unless_a_format_of_other_solvers_is_asked_for) {
+  geometry::CoverState cover;
+  cover.balls = cover.samples = 2;
+  cover.row_offsets = {0, 2, 3};
+  cover.columns = {0, 1, 1};
+  cover.row_ids = cover.column_ids = {0, 1};
+  EXPECT_EQ(default_format("CoverState"), "json");
+  EXPECT_EQ(export_formats("CoverState"), (std::vector<std::string>{"json", "scp", "lp", "safetensors"}));
+  EXPECT_EQ(exported(cover, "scp"), " 2 2\n 1 1\n 1\n 1\n 2\n 1 2\n");
+  EXPECT_NE(exported(cover, "lp").find("s1: b0 + b1 >= 1"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace ballflow

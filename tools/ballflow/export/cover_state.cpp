@@ -1,0 +1,27 @@
+// CoverState: json, scp, lp.
+#include "cover/save_cover.hpp"
+#include "export/format_table.hpp"
+#include "export/typed.hpp"
+#include "types/artifact_types.hpp"
+
+namespace ballflow {
+namespace {
+
+using geometry::CoverState;
+
+void write_scp(const Artifact& artifact, OutputFile& out) {
+  geometry::save_scp(typed<CoverState>(artifact), [&out](std::string_view text) { out << text; });
+}
+
+void write_lp(const Artifact& artifact, OutputFile& out) {
+  geometry::save_lp(typed<CoverState>(artifact), [&out](std::string_view text) { out << text; });
+}
+
+}  // namespace
+
+TypeFormats cover_state_formats() {
+  // json stays the default: what most users want of a cover is its summary.
+  return {"CoverState", {generic_formats().front(), {"scp", write_scp}, {"lp", write_lp}}};
+}
+
+}  // namespace ballflow
