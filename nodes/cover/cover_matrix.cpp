@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "cover/membership.hpp"
+#include "cover/residual.hpp"
 #include "cover/sample_tree.hpp"
 
 namespace ballflow::geometry {
@@ -257,7 +258,7 @@ CoverMatrix cover_matrix(const Balls& balls, const PointSet& points, const Cover
   cover.columns = Array<std::int32_t>(columns.get(), total, columns);
   const auto cols = static_cast<std::int64_t>(column_ids.size());
   const std::int64_t best = std::max<std::int64_t>(longest, 1);
-  cover.lower_bound = (cols + best - 1) / best;
+  raise_lower_bound(cover, (cols + best - 1) / best, BoundHow::lemma_3_7);
   cover.column_ids = std::move(column_ids);
   cover.uncovered = std::move(uncovered);
   monitor.step(1);

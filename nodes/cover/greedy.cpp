@@ -108,18 +108,14 @@ CoverState greedy(const CoverState& state, const GreedyOptions& options, Monitor
     std::iota(every.begin(), every.end(), 0);
     CoverState next = choose(state, every, Choice::all);
     raise_lower_bound(next);
-    next.exact_so_far = 0;
     return next;
   }
 
   const Components parts = components(state);
   const std::vector<std::int32_t> longest = longest_rows(state, parts);
   CoverState bounded = state;
-  if (state.exact_so_far != 0) {
-    bounded.lower_bound =
-        std::max(bounded.lower_bound, state.count(Choice::essential) + state.count(Choice::exact) +
-                                          component_bound(state, parts, longest));
-  }
+  raise_lower_bound(bounded, optimal_choices(state) + component_bound(state, parts, longest),
+                    BoundHow::lemma_3_7);
   std::vector<std::int32_t> picks = longest;
   if (options.mode == GreedyMode::until_covered) {
     picks = until_covered(state, monitor);

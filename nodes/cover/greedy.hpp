@@ -21,7 +21,7 @@ struct GreedyOptions {
 
 /// Chooses rows of the residual matrix. Ties go to the ball of lowest index.
 ///
-/// - Picks are marked Choice::greedy, or Choice::all in mode all; after mode all exact_so_far is 0.
+/// - Picks are marked Choice::greedy, or Choice::all in mode all.
 /// - The lower bound is raised first, by what the residual proves component by component, and again
 ///   after the picks (Lemma 3.7; see raise_lower_bound).
 /// - Redundant picks are looked for among the picks of this call only.

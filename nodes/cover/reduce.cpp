@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "cover/certificate.hpp"
 #include "cover/residual.hpp"
 
 namespace ballflow::geometry {
@@ -187,6 +188,7 @@ CoverState reduce(const CoverState& state, const ReduceOptions& options, Monitor
                 Ids(state.column_ids.begin(), state.column_ids.end())};
   Ids chosen(state.chosen.begin(), state.chosen.end());
   std::vector<std::uint8_t> chosen_how(state.chosen_how.begin(), state.chosen_how.end());
+  PricedGroups witnesses;  // of the essential balls
   Ids dirty_rows = all_of(matrix.rows.size()), dirty_columns = all_of(matrix.columns.size());
 
   for (int round = 1; !dirty_rows.empty() || !dirty_columns.empty(); ++round) {
@@ -211,15 +213,19 @@ CoverState reduce(const CoverState& state, const ReduceOptions& options, Monitor
     // A column of one row is in all other columns of that row, which have just been marked: the choice
     // takes this column and its row, nothing else.
     Flags essential(matrix.rows.size());
+    Ids witness(matrix.rows.size());
     for (std::size_t c = 0; c < matrix.columns.size(); ++c) {
       if (gone_columns[c] != 0 || matrix.columns.degree(c) != 1) continue;
       gone_columns[c] = 1;
       essential[static_cast<std::size_t>(matrix.columns[c][0])] = 1;
+      witness[static_cast<std::size_t>(matrix.columns[c][0])] = matrix.column_ids[c];
     }
     for (std::size_t i = 0; i < essential.size(); ++i) {
       if (essential[i] == 0) continue;
       chosen.push_back(matrix.row_ids[i]);
       chosen_how.push_back(static_cast<std::uint8_t>(Choice::essential));
+      witnesses.add(witness[i], price_unit);
+      witnesses.close();
     }
     if (any(gone_columns)) {
       Ids unchanged;
@@ -237,6 +243,7 @@ CoverState reduce(const CoverState& state, const ReduceOptions& options, Monitor
   next.column_ids = std::move(matrix.column_ids);
   next.chosen = std::move(chosen);
   next.chosen_how = std::move(chosen_how);
+  settle(next, witnesses);
   raise_lower_bound(next);
   monitor.step(1);
   return next;

@@ -25,7 +25,8 @@ struct ReduceOptions {
 ///   - essentials: a row that is alone in a column is chosen (Choice::essential), ascending within a pass,
 ///     and goes with all its columns.
 /// Every rule looks at the matrix its pass began with, so the residual is a function of the input alone.
-/// Raises the lower bound by the essential choices (see raise_lower_bound).
+/// Raises the lower bound by the essential choices (see raise_lower_bound); the certificate gets the sample
+/// that only the essential ball covered, for each (see certificate.hpp).
 CoverState reduce(const CoverState& state, const ReduceOptions& options = {},
                   Monitor& monitor = no_monitor());
 

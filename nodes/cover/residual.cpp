@@ -59,15 +59,24 @@ CoverState choose(const CoverState& state, std::span<const std::int32_t> rows, C
   return next;
 }
 
+std::int64_t optimal_choices(const CoverState& state) {
+  return state.count(Choice::essential) + state.count(Choice::exact);
+}
+
+void raise_lower_bound(CoverState& state, std::int64_t bound, BoundHow how) {
+  const auto ground = static_cast<std::uint8_t>(how);
+  if (bound < state.lower_bound || (bound == state.lower_bound && ground <= state.lower_bound_how)) return;
+  state.lower_bound = bound;
+  state.lower_bound_how = ground;
+}
+
 void raise_lower_bound(CoverState& state) {
-  if (state.exact_so_far == 0) return;
   std::int64_t longest = 1;
   for (std::size_t i = 0; i < state.rows(); ++i) {
     longest = std::max(longest, state.row_offsets[i + 1] - state.row_offsets[i]);
   }
   const std::int64_t rest = (static_cast<std::int64_t>(state.cols()) + longest - 1) / longest;
-  state.lower_bound =
-      std::max(state.lower_bound, state.count(Choice::essential) + state.count(Choice::exact) + rest);
+  raise_lower_bound(state, optimal_choices(state) + rest, BoundHow::lemma_3_7);
 }
 
 }  // namespace ballflow::geometry

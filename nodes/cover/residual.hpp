@@ -35,12 +35,16 @@ CoverState choose(const CoverState& state, std::span<const std::int32_t> rows, C
 ///
 /// Let e be the number of essential and exact choices, R the residual. Then every cover of the original
 /// instance has at least e + OPT(R) balls: reductions keep the optimum; an essential choice, or an optimal
-/// solution of a component, lowers it by its size; and any other choice (greedy, trusted) only removes a row
+/// solution of a component, lowers it by its size; and any other choice only removes a row
 /// and the columns it covers, which never raises the optimum of what is left. This is Lemma 3.7 of the
 /// thesis for any interleaving of exact and greedy steps: with an empty residual, e = |solution| - g.
 /// OPT(R) >= ceil(columns / longest row).
-///
-/// Does nothing unless exact_so_far is 1.
 void raise_lower_bound(CoverState& state);
+
+/// Takes `bound` over when it is more than the lower bound known, or as much on better ground.
+void raise_lower_bound(CoverState& state, std::int64_t bound, BoundHow how);
+
+/// e of above: the essential and exact choices.
+std::int64_t optimal_choices(const CoverState& state);
 
 }  // namespace ballflow::geometry

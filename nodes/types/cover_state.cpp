@@ -79,14 +79,70 @@ std::string broken_choices(const CoverState& state) {
       return entry("chosen", i) + " = " + std::to_string(ball) + " is chosen twice or still a row";
     }
     gone[static_cast<std::size_t>(ball)] = true;
-    if (state.chosen_how[i] > static_cast<std::uint8_t>(Choice::all)) {
+    if (state.chosen_how[i] > static_cast<std::uint8_t>(Choice::searched)) {
       return entry("chosen_how", i) + " = " + std::to_string(state.chosen_how[i]) + " is no Choice";
     }
   }
   return {};
 }
 
+std::string broken_certificate(const CoverState& state) {
+  const std::size_t listed = state.certificate_samples.size();
+  if (state.certificate_prices.size() != listed || state.certificate_groups.size() != listed) {
+    return "certificate_samples has " + std::to_string(listed) + " entries, certificate_prices " +
+           std::to_string(state.certificate_prices.size()) + ", certificate_groups " +
+           std::to_string(state.certificate_groups.size());
+  }
+  std::vector<bool> met(static_cast<std::size_t>(state.samples));
+  std::int32_t group = -1;
+  for (std::size_t i = 0; i < listed; ++i) {
+    const std::int32_t sample = state.certificate_samples[i], price = state.certificate_prices[i];
+    if (sample < 0 || sample >= state.samples) {
+      return entry("certificate_samples", i) + " = " + std::to_string(sample) + " is not in [0, " +
+             std::to_string(state.samples) + ")";
+    }
+    if (met[static_cast<std::size_t>(sample)]) {
+      return entry("certificate_samples", i) + " = " + std::to_string(sample) + " is listed twice";
+    }
+    met[static_cast<std::size_t>(sample)] = true;
+    if (price < 1 || price > price_unit) {
+      return entry("certificate_prices", i) + " = " + std::to_string(price) + " is not in [1, " +
+             std::to_string(price_unit) + "]";
+    }
+    const bool next_group = state.certificate_groups[i] == group + 1;
+    if (!next_group && (state.certificate_groups[i] != group || group < 0)) {
+      return entry("certificate_groups", i) + " = " + std::to_string(state.certificate_groups[i]) +
+             " does not ascend by steps of 1 from 0";
+    }
+    if (!next_group && sample < state.certificate_samples[i - 1]) {
+      return entry("certificate_samples", i) + " = " + std::to_string(sample) +
+             " does not ascend in its group";
+    }
+    group = state.certificate_groups[i];
+  }
+  if (state.settled_groups < 0 || state.settled_groups > group + 1) {
+    return "settled_groups = " + std::to_string(state.settled_groups) + " is not in [0, " +
+           std::to_string(group + 1) + "], the number of groups";
+  }
+  if (listed > 0 && state.certified_bound() > state.lower_bound) {
+    return "lower_bound = " + std::to_string(state.lower_bound) + " is less than its certificate claims, " +
+           std::to_string(state.certified_bound());
+  }
+  return {};
+}
+
 }  // namespace
+
+std::int64_t CoverState::certified_bound() const {
+  std::int64_t bound = 0, sum = 0;
+  for (std::size_t i = 0; i < certificate_samples.size(); ++i) {
+    sum += certificate_prices[i];
+    if (i + 1 < certificate_samples.size() && certificate_groups[i + 1] == certificate_groups[i]) continue;
+    bound += (sum + price_unit - 1) / price_unit;
+    sum = 0;
+  }
+  return bound;
+}
 
 std::int64_t CoverState::count(Choice how) const {
   return std::count(chosen_how.begin(), chosen_how.end(), static_cast<std::uint8_t>(how));
@@ -127,9 +183,15 @@ std::string broken_invariant(const CoverState& state) {
     return "lower_bound = " + std::to_string(state.lower_bound) + " exceeds the cover found, " +
            std::to_string(*upper) + " balls";
   }
-  if (state.exact_so_far > 1)
-    return "exact_so_far = " + std::to_string(state.exact_so_far) + " is neither 0 nor 1";
-  return {};
+  if (state.lower_bound_how > static_cast<std::uint8_t>(BoundHow::certified)) {
+    return "lower_bound_how = " + std::to_string(state.lower_bound_how) + " is no BoundHow";
+  }
+  if ((state.lower_bound < 0) != (state.lower_bound_how == 0)) {
+    return "lower_bound = " + std::to_string(state.lower_bound) +
+           " with lower_bound_how = " + std::to_string(state.lower_bound_how) +
+           ": a bound has a ground, and no bound has none";
+  }
+  return broken_certificate(state);
 }
 
 }  // namespace ballflow::geometry

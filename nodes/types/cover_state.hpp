@@ -17,7 +17,20 @@ enum class Choice : std::uint8_t {
   greedy = 2,     // a greedy pick: each may cost one ball more than the optimum (Lemma 3.7)
   trusted = 3,    // from a solver that stopped before it proved optimality
   all = 4,        // kept because nothing was pruned
+  searched = 5,   // kept by local search: nothing is claimed about it
 };
+
+/// How a lower bound was obtained, the weakest ground first.
+enum class BoundHow : std::uint8_t {
+  unknown = 0,    // there is none
+  solver = 1,     // a solver said so: a component's optimum, or the bound of an unfinished search
+  lemma_3_7 = 2,  // essential and exact choices counted, and columns / longest row of what is left
+  share = 3,      // the share bound (Theorem 3.8)
+  certified = 4,  // the certificate of the state proves it: anybody can check that
+};
+
+/// The price of a sample in a certificate is an integer number of 1 / price_unit balls.
+inline constexpr std::int64_t price_unit = std::int64_t{1} << 20;
 
 struct CoverState {
   std::int64_t balls = 0;    // number of balls of the original instance
@@ -38,8 +51,21 @@ struct CoverState {
   // Proven: every cover of the original instance has at least so many balls; -1 while nothing is known.
   // Valid for the whole instance, not for the residual.
   std::int64_t lower_bound = -1;
-  // 1 while everything chosen except the greedy picks was proven optimal, so that Lemma 3.7 applies.
-  std::uint8_t exact_so_far = 1;
+  std::uint8_t lower_bound_how = 0;  // BoundHow
+
+  // Certificate of a lower bound: sample certificate_samples[i] (original index) has the price
+  // certificate_prices[i] / price_unit, in group certificate_groups[i]. If
+  //   (1) no ball of the original instance contains samples whose prices sum to more than 1, and
+  //   (2) no ball of the original instance contains listed samples of two groups,
+  // then a cover needs at least ceil(sum of prices) balls for each group, and no ball serves two groups:
+  // every cover has at least certified_bound() balls. Samples that are not listed are free.
+  Array<std::int32_t> certificate_samples;  // l samples, ascending within a group, none twice
+  Array<std::int32_t> certificate_prices;   // l, from 1 to price_unit
+  Array<std::int32_t> certificate_groups;   // l, ascending, from 0 without holes
+  // The first groups are about samples that essential and exact choices took out of the matrix: no ball
+  // contains one of these samples and one of column_ids. The groups after them say something about the matrix
+  // as it was when they were made.
+  std::int64_t settled_groups = 0;
 
   std::size_t rows() const { return row_ids.size(); }
   std::size_t cols() const { return column_ids.size(); }
@@ -50,6 +76,8 @@ struct CoverState {
     return columns.span().subspan(first, static_cast<std::size_t>(row_offsets[i + 1]) - first);
   }
   std::int64_t count(Choice how) const;
+  /// What the certificate proves, 0 when it is empty.
+  std::int64_t certified_bound() const;
   /// Number of chosen balls once nothing remains, else nothing.
   std::optional<std::int64_t> upper_bound() const;
   /// (upper - lower) / lower, a fraction, once both are known.

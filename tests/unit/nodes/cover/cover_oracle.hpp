@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <map>
 #include <numeric>
 #include <random>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -93,6 +95,34 @@ inline bool covers(const geometry::CoverState& original, const geometry::CoverSt
   return covered.size() == original.cols();
 }
 
+/// What is wrong with the certificate of `state` on the matrix of `original`, in which nothing was reduced:
+/// empty when every row contains prices of at most 1 in sum, all of one group.
+inline std::string certificate_error(const geometry::CoverState& original,
+                                     const geometry::CoverState& state) {
+  std::map<std::int32_t, std::pair<std::int64_t, std::int32_t>> listed;
+  std::map<std::int32_t, std::int64_t> sums;
+  for (std::size_t i = 0; i < state.certificate_samples.size(); ++i) {
+    listed[state.certificate_samples[i]] = {state.certificate_prices[i], state.certificate_groups[i]};
+    sums[state.certificate_groups[i]] += state.certificate_prices[i];
+  }
+  const Sets rows = row_sets(original);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::int64_t load = 0;
+    std::set<std::int32_t> groups;
+    for (const std::int32_t sample : rows[i]) {
+      const auto at = listed.find(sample);
+      if (at == listed.end()) continue;
+      load += at->second.first;
+      groups.insert(at->second.second);
+    }
+    if (load > geometry::price_unit) return "row " + std::to_string(i) + " costs " + std::to_string(load);
+    if (groups.size() > 1) return "row " + std::to_string(i) + " meets two groups";
+  }
+  std::int64_t bound = 0;
+  for (const auto& [group, sum] : sums) bound += (sum + geometry::price_unit - 1) / geometry::price_unit;
+  return bound == state.certified_bound() ? "" : "the groups prove " + std::to_string(bound);
+}
+
 /// Whether one of the three reduction rules applies, by comparing all pairs.
 inline bool reducible(const geometry::CoverState& state) {
   const Sets rows = row_sets(state);
@@ -136,7 +166,9 @@ inline bool same(const geometry::CoverState& a, const geometry::CoverState& b) {
   return a.balls == b.balls && a.samples == b.samples && a.row_offsets == b.row_offsets &&
          a.columns == b.columns && a.row_ids == b.row_ids && a.column_ids == b.column_ids &&
          a.chosen == b.chosen && a.chosen_how == b.chosen_how && a.uncovered == b.uncovered &&
-         a.lower_bound == b.lower_bound && a.exact_so_far == b.exact_so_far;
+         a.lower_bound == b.lower_bound && a.lower_bound_how == b.lower_bound_how &&
+         a.certificate_samples == b.certificate_samples && a.certificate_prices == b.certificate_prices &&
+         a.certificate_groups == b.certificate_groups && a.settled_groups == b.settled_groups;
 }
 
 /// A real number in [0, 1), the same on every machine.

@@ -13,6 +13,12 @@ CoverState sound() {
   state.balls = 3;
   state.chosen = {2};
   state.chosen_how = {static_cast<std::uint8_t>(Choice::greedy)};
+  state.certificate_samples = {0, 1, 3};
+  state.certificate_prices = {1, 2, 1 << 20};
+  state.certificate_groups = {0, 0, 1};
+  state.settled_groups = 1;
+  state.lower_bound = 2;
+  state.lower_bound_how = static_cast<std::uint8_t>(BoundHow::certified);
   return state;
 }
 
@@ -47,7 +53,48 @@ TEST(cover_state, every_broken_invariant_is_named) {
   EXPECT_NE(broken([](auto& s) { s.chosen = {3}; }).find("chosen[0]"), std::string::npos);
   EXPECT_NE(broken([](auto& s) { s.chosen_how = {9}; }).find("chosen_how[0]"), std::string::npos);
   EXPECT_NE(broken([](auto& s) { s.lower_bound = -2; }).find("lower_bound"), std::string::npos);
-  EXPECT_NE(broken([](auto& s) { s.exact_so_far = 2; }).find("exact_so_far"), std::string::npos);
+  EXPECT_NE(broken([](auto& s) { s.lower_bound_how = 5; }).find("lower_bound_how"), std::string::npos);
+  EXPECT_NE(broken([](auto& s) { s.lower_bound_how = 0; }).find("lower_bound_how"), std::string::npos);
+  EXPECT_NE(broken([](auto& s) { s.lower_bound = -1; }).find("lower_bound_how"), std::string::npos);
+  EXPECT_NE(broken([](auto& s) {
+              s.certificate_samples = {0, 1};
+            }).find("certificate_samples has 2"),
+            std::string::npos);
+  EXPECT_NE(broken([](auto& s) {
+              s.certificate_samples = {0, 1, 4};
+            }).find("certificate_samples[2] = 4"),
+            std::string::npos);
+  EXPECT_NE(broken([](auto& s) {
+              s.certificate_samples = {0, 1, 0};
+            }).find("listed twice"),
+            std::string::npos);
+  EXPECT_NE(broken([](auto& s) {
+              s.certificate_samples = {1, 0, 3};
+            }).find("certificate_samples[1]"),
+            std::string::npos);
+  EXPECT_NE(broken([](auto& s) {
+              s.certificate_prices = {1, 0, 1};
+            }).find("certificate_prices[1]"),
+            std::string::npos);
+  EXPECT_NE(broken([](auto& s) {
+              s.certificate_prices = {1, 1, (1 << 20) + 1};
+            }).find("certificate_prices[2]"),
+            std::string::npos);
+  EXPECT_NE(broken([](auto& s) {
+              s.certificate_groups = {0, 0, 2};
+            }).find("certificate_groups[2]"),
+            std::string::npos);
+  EXPECT_NE(broken([](auto& s) {
+              s.certificate_groups = {1, 1, 1};
+            }).find("certificate_groups[0]"),
+            std::string::npos);
+  EXPECT_NE(broken([](auto& s) {
+              s.certificate_groups = {0, 1, 0};
+            }).find("certificate_groups[2]"),
+            std::string::npos);
+  EXPECT_NE(broken([](auto& s) { s.settled_groups = 3; }).find("settled_groups"), std::string::npos);
+  EXPECT_NE(broken([](auto& s) { s.settled_groups = -1; }).find("settled_groups"), std::string::npos);
+  EXPECT_NE(broken([](auto& s) { s.lower_bound = 1; }).find("certificate claims, 2"), std::string::npos);
 }
 
 TEST(cover_state, a_bound_above_a_finished_cover_is_a_lie) {
@@ -56,6 +103,7 @@ TEST(cover_state, a_bound_above_a_finished_cover_is_a_lie) {
   state.chosen = {0};
   state.chosen_how = {0};
   state.lower_bound = 1;
+  state.lower_bound_how = static_cast<std::uint8_t>(BoundHow::solver);
   EXPECT_EQ(broken_invariant(state), "");
   state.lower_bound = 2;
   EXPECT_NE(broken_invariant(state).find("lower_bound"), std::string::npos);

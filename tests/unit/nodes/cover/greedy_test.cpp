@@ -148,16 +148,8 @@ TEST(greedy, keeps_every_ball_in_mode_all) {
   EXPECT_EQ(kept.chosen, (Array<std::int32_t>{0, 1, 2}));
   EXPECT_EQ(kept.count(Choice::all), 3);
   EXPECT_EQ(kept.remaining(), 0u);
-  EXPECT_EQ(kept.exact_so_far, 0);
   EXPECT_LE(kept.lower_bound, 1);
   EXPECT_EQ(broken_invariant(kept), "");
-}
-
-TEST(greedy, proves_nothing_new_after_choices_that_were_not_exact) {
-  CoverState state = state_of({{0}, {1}}, 2);
-  state.exact_so_far = 0;
-  state.lower_bound = 1;
-  EXPECT_EQ(greedy(state).lower_bound, 1);
 }
 
 TEST(greedy, accepts_an_empty_matrix) {
