@@ -24,6 +24,7 @@ namespace {
 
 // Balls handled between two looks at the monitor: some milliseconds of work.
 constexpr std::size_t block = 256;
+std::size_t blocks_of(std::size_t count) { return (count + block - 1) / block; }
 
 // Beyond this a sum of squares may overflow, and "in no ball" and "in every ball" look alike.
 constexpr double coordinate_limit = 1e140;
@@ -39,24 +40,19 @@ bool beyond_limit(Vec3 p) {
            std::abs(p.z) <= coordinate_limit);
 }
 
-/// Sorts sets of small integers by marking them in a two-level bitmap and reading it in order: linear in
-/// the set, where a comparison sort takes most of the time of the whole matrix.
+/// Collects a set of small integers and lists it in order: marks them in a two-level bitmap, which is linear
+/// in the set, where a comparison sort takes most of the time of the whole matrix.
 class SetSorter {
  public:
   explicit SetSorter(std::size_t universe) : words_(universe / 64 + 1), groups_(words_.size() / 64 + 1) {}
 
-  /// Writes the distinct values of [first, last) to `out`, ascending; returns one past the last.
-  std::int32_t* sort(std::int32_t* first, std::int32_t* last, std::int32_t* out) {
-    const auto size = static_cast<std::size_t>(last - first);
-    if (size < 16 || size * 8 < groups_.size()) {  // reading the bitmap would cost more
-      std::sort(first, last);
-      return std::unique_copy(first, last, out);
-    }
-    for (; first != last; ++first) {
-      const auto value = static_cast<std::size_t>(*first);
-      words_[value >> 6] |= std::uint64_t{1} << (value & 63);
-      groups_[value >> 12] |= std::uint64_t{1} << ((value >> 6) & 63);
-    }
+  void add(std::int32_t number) {
+    const auto value = static_cast<std::size_t>(number);
+    words_[value >> 6] |= std::uint64_t{1} << (value & 63);
+    groups_[value >> 12] |= std::uint64_t{1} << ((value >> 6) & 63);
+  }
+  /// Writes what was added to `out`, ascending; returns one past the last, and begins a new set.
+  std::int32_t* list(std::int32_t* out) {
     for (std::size_t group = 0; group < groups_.size(); ++group) {
       for (std::uint64_t used = std::exchange(groups_[group], 0); used != 0; used &= used - 1) {
         const std::size_t word = group * 64 + static_cast<std::size_t>(std::countr_zero(used));
@@ -67,24 +63,35 @@ class SetSorter {
     }
     return out;
   }
+  /// Whether sorting `size` numbers by comparison is cheaper than reading the bitmap.
+  bool too_large_for(std::size_t size) const { return size < 16 || size * 8 < groups_.size(); }
 
  private:
   std::vector<std::uint64_t> words_, groups_;
 };
 
-/// Runs body(i) for all i of `order` in parallel, watching the monitor; `share` of the progress ends at
-/// `end`.
+/// Runs body(b) for all blocks b of `count` things in parallel, watching the monitor, whose progress goes
+/// from `begin` to `end`.
 template <class Body>
-void for_each_in_order(const std::vector<std::int32_t>& order, Monitor& monitor, double begin, double end,
-                       Body body) {
+void for_each_block(std::size_t count, Monitor& monitor, double begin, double end, Body body) {
   std::atomic<std::size_t> done{0};
-  const std::size_t blocks = (order.size() + block - 1) / block;
+  const std::size_t blocks = blocks_of(count);
   tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
-    const std::size_t last = std::min(order.size(), (b + 1) * block);
-    for (std::size_t i = b * block; i < last; ++i) body(static_cast<std::size_t>(order[i]));
+    body(b);
     monitor.step(begin + (end - begin) * static_cast<double>(++done) / static_cast<double>(blocks));
   });
 }
+
+/// What the queries of a block of balls found: hits[ends[k - 1] .. ends[k]) for its ball k.
+struct BlockHits {
+  std::vector<SampleTree::Hit> hits;
+  std::vector<std::size_t> ends;
+};
+
+// Answers of the counting pass are kept for the filling pass up to so many hits a ball on average, 1 KB.
+// Scans need 20 to 60; but where all samples are nearly as far from a ball as its radius, as on a sphere, it
+// has a hit in every leaf, and is asked again.
+constexpr std::int64_t hits_per_ball = 128;
 
 void require_memory(std::int64_t entries, const CoverMatrixOptions& options) {
   const double bytes = 4.0 * static_cast<double>(entries);
@@ -180,12 +187,29 @@ CoverMatrix cover_matrix(const Balls& balls, const PointSet& points, const Cover
     }
   };
 
+  const std::vector<std::int32_t>& order = ball_tree.order();
+  const auto query = [&](std::size_t b, BlockHits& found, auto&& answered) {
+    found.hits.clear();
+    found.ends.clear();
+    for (std::size_t k = b * block; k < std::min(m, (b + 1) * block); ++k) {
+      const auto i = static_cast<std::size_t>(order[k]);
+      answered(i, tree.query(balls.centers[i], squared_reach(balls.radii[i]), found.hits));
+      found.ends.push_back(found.hits.size());
+    }
+  };
+
   std::vector<std::int64_t> offsets(m + 1);
-  for_each_in_order(ball_tree.order(), monitor, 0.1, 0.4, [&](std::size_t i) {
-    const double reach = squared_reach(balls.radii[i]);
-    std::int64_t count = tree.count(balls.centers[i], reach);
-    for_each_missed(i, reach, [&](std::int32_t) { ++count; });
-    offsets[i + 1] = count;
+  std::vector<BlockHits> kept(blocks_of(m));
+  std::atomic<std::int64_t> room{hits_per_ball * static_cast<std::int64_t>(m)};
+  tbb::enumerable_thread_specific<BlockHits> asked;
+  for_each_block(m, monitor, 0.1, 0.4, [&](std::size_t b) {
+    BlockHits& found = asked.local();
+    query(b, found, [&](std::size_t i, std::int64_t count) {
+      for_each_missed(i, squared_reach(balls.radii[i]), [&](std::int32_t) { ++count; });
+      offsets[i + 1] = count;
+    });
+    const auto size = static_cast<std::int64_t>(found.hits.size());
+    if (room.fetch_sub(size) >= size) kept[b] = found;
   });
   const std::int64_t longest = *std::max_element(offsets.begin(), offsets.end());
   for (std::size_t i = 0; i < m; ++i) offsets[i + 1] += offsets[i];
@@ -194,20 +218,28 @@ CoverMatrix cover_matrix(const Balls& balls, const PointSet& points, const Cover
 
   // Not initialised, and with room for the rows of uncovered samples; untouched pages cost nothing.
   const std::shared_ptr<std::int32_t[]> columns(new std::int32_t[static_cast<std::size_t>(entries) + n]);
-  struct Scratch {
-    std::vector<std::int32_t> found;
-    SetSorter sorter;
-  };
-  tbb::enumerable_thread_specific<Scratch> scratch([&] {
-    return Scratch{std::vector<std::int32_t>(static_cast<std::size_t>(longest) + SampleTree::margin),
-                   SetSorter(n)};
-  });
-  for_each_in_order(ball_tree.order(), monitor, 0.4, 0.9, [&](std::size_t i) {
-    Scratch& mine = scratch.local();
-    const double reach = squared_reach(balls.radii[i]);
-    std::int32_t* last = tree.find(balls.centers[i], reach, mine.found.data());
-    for_each_missed(i, reach, [&](std::int32_t s) { *last++ = s; });
-    mine.sorter.sort(mine.found.data(), last, columns.get() + offsets[i]);
+  tbb::enumerable_thread_specific<SetSorter> sorters([n] { return SetSorter(n); });
+  for_each_block(m, monitor, 0.4, 0.9, [&](std::size_t b) {
+    BlockHits found = std::move(kept[b]);
+    if (found.ends.empty()) query(b, found, [](std::size_t, std::int64_t) {});
+    SetSorter& sorter = sorters.local();
+    std::size_t at = 0;
+    for (std::size_t k = 0; k < found.ends.size(); ++k) {
+      const auto i = static_cast<std::size_t>(order[b * block + k]);
+      std::int32_t* const row = columns.get() + offsets[i];
+      const auto each = [&](auto&& add) {
+        for (; at < found.ends[k]; ++at) tree.for_each(found.hits[at], add);
+        for_each_missed(i, squared_reach(balls.radii[i]), add);
+      };
+      if (sorter.too_large_for(static_cast<std::size_t>(offsets[i + 1] - offsets[i]))) {
+        std::int32_t* last = row;
+        each([&](std::int32_t s) { *last++ = s; });
+        std::sort(row, last);
+      } else {
+        each([&](std::int32_t s) { sorter.add(s); });
+        sorter.list(row);
+      }
+    }
   });
 
   std::vector<std::uint8_t> covered(n);

@@ -31,7 +31,7 @@ struct CoverMatrix {
 ///
 /// - The lower bound of the result is ceil(columns / longest row).
 /// - Rows ascend; the result does not depend on the number of threads.
-/// - Time O((m + n) log n + entries), memory 4 bytes per entry + 70 bytes per sample and ball.
+/// - Time O((m + n) log n + entries), memory 4 bytes per entry, 70 bytes per sample, at most 1.2 KB per ball.
 ///
 /// Refused with InputError: coordinates or radii beyond 1e140, defining samples that are not in `points`, a
 /// matrix of more than `max_entries` entries or larger than the memory of the machine, uncovered samples

@@ -45,7 +45,7 @@ struct CoverMatrixNode {
         .at_least(0)
         .not_hashed()
         .doc("a larger matrix is refused before it is made; 0 refuses every matrix with an entry");
-    d.memory(16 << 20, 4.0);
+    d.memory(16 << 20, 16.0);
   }
 
   void run(RunContext& context) {

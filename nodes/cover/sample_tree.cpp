@@ -1,7 +1,12 @@
 #include "cover/sample_tree.hpp"
 
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <numeric>
 
 #include "cover/membership.hpp"
@@ -11,10 +16,13 @@ namespace {
 
 // Tuned on samples of 35 000 and 100 000 points: half as much makes too many nodes, twice as much tests too
 // many samples.
-constexpr std::int32_t leaf_size = 32;
-static_assert(leaf_size <= static_cast<std::int32_t>(SampleTree::margin));
+constexpr std::int32_t leaf_size = 32;  // the bits of SampleTree::Hit::samples
 
 constexpr std::size_t max_depth = 64;  // the size halves at every level
+
+/// How far a coordinate is outside an interval. Nested maxima are two instructions; std::max of a list is a
+/// loop.
+double outside(double low, double high) { return std::max(std::max(low, high), 0.0); }
 
 }  // namespace
 
@@ -23,15 +31,17 @@ SampleTree::SampleTree(std::span<const Vec3> samples) : ids_(samples.size()) {
   if (samples.empty()) return;
   nodes_.reserve(4 * samples.size() / static_cast<std::size_t>(leaf_size) + 1);
   build(samples, 0, static_cast<std::int32_t>(samples.size()));
-  x_.reserve(samples.size());
-  y_.reserve(samples.size());
-  z_.reserve(samples.size());
+  x_.reserve(samples.size() + leaf_size);
+  y_.reserve(samples.size() + leaf_size);
+  z_.reserve(samples.size() + leaf_size);
   for (const std::int32_t id : ids_) {
     const Vec3& p = samples[static_cast<std::size_t>(id)];
     x_.push_back(p.x);
     y_.push_back(p.y);
     z_.push_back(p.z);
   }
+  // Whole leaves are read, also where the last one is shorter.
+  for (std::vector<double>* values : {&x_, &y_, &z_}) values->resize(samples.size() + leaf_size);
 }
 
 void SampleTree::build(std::span<const Vec3> samples, std::int32_t first, std::int32_t last) {
@@ -56,9 +66,33 @@ void SampleTree::build(std::span<const Vec3> samples, std::int32_t first, std::i
   build(samples, middle, last);
 }
 
-template <class Whole, class Leaf>
-void SampleTree::descend(Vec3 c, double squared_reach, Whole whole, Leaf leaf) const {
-  if (nodes_.empty()) return;
+std::uint32_t SampleTree::in_leaf(const Node& leaf, Vec3 c, double squared_reach) const {
+  const double* const x = x_.data() + leaf.first;
+  const double* const y = y_.data() + leaf.first;
+  const double* const z = z_.data() + leaf.first;
+  std::uint32_t mask = 0;
+#if defined(__SSE2__)
+  // The operations of in_reach, in its order, on two samples at once: the same bits, in half the time.
+  const __m128d cx = _mm_set1_pd(c.x), cy = _mm_set1_pd(c.y), cz = _mm_set1_pd(c.z);
+  const __m128d reach = _mm_set1_pd(squared_reach);
+  for (int k = 0; k < leaf_size; k += 2) {
+    const __m128d dx = _mm_sub_pd(cx, _mm_loadu_pd(x + k));
+    const __m128d dy = _mm_sub_pd(cy, _mm_loadu_pd(y + k));
+    const __m128d dz = _mm_sub_pd(cz, _mm_loadu_pd(z + k));
+    const __m128d norm = _mm_add_pd(_mm_add_pd(_mm_mul_pd(dx, dx), _mm_mul_pd(dy, dy)), _mm_mul_pd(dz, dz));
+    mask |= static_cast<std::uint32_t>(_mm_movemask_pd(_mm_cmple_pd(norm, reach))) << k;
+  }
+#else
+  for (int k = 0; k < leaf_size; ++k) {
+    mask |= std::uint32_t{in_reach(c, squared_reach, {x[k], y[k], z[k]})} << k;
+  }
+#endif
+  return mask & ~std::uint32_t{0} >> (leaf_size - (leaf.last - leaf.first));
+}
+
+std::int64_t SampleTree::query(Vec3 c, double squared_reach, std::vector<Hit>& hits) const {
+  if (nodes_.empty()) return 0;
+  std::int64_t found = 0;
   std::array<std::int32_t, max_depth> stack;
   std::size_t depth = 0;
   std::int32_t at = 0;
@@ -66,50 +100,28 @@ void SampleTree::descend(Vec3 c, double squared_reach, Whole whole, Leaf leaf) c
     const Node& node = nodes_[static_cast<std::size_t>(at)];
     // Differences to the lower and to the upper corner bound those to every sample between them.
     const Vec3 low = node.lower - c, high = c - node.upper;
-    const double nearest = squared_norm(std::max({low.x, high.x, 0.0}), std::max({low.y, high.y, 0.0}),
-                                        std::max({low.z, high.z, 0.0}));
+    const double nearest =
+        squared_norm(outside(low.x, high.x), outside(low.y, high.y), outside(low.z, high.z));
     if (nearest <= squared_reach) {
       const double farthest =
           squared_norm(std::min(low.x, high.x), std::min(low.y, high.y), std::min(low.z, high.z));
       if (farthest <= squared_reach) {
-        whole(node);
+        hits.push_back({node.first, static_cast<std::uint32_t>(node.last - node.first)});
+        found += node.last - node.first;
       } else if (node.right == 0) {
-        leaf(node);
+        if (const std::uint32_t mask = in_leaf(node, c, squared_reach); mask != 0) {
+          hits.push_back({~node.first, mask});
+          found += std::popcount(mask);
+        }
       } else {
         stack[depth++] = node.right;
         ++at;
         continue;
       }
     }
-    if (depth == 0) return;
+    if (depth == 0) return found;
     at = stack[--depth];
   }
-}
-
-std::int64_t SampleTree::count(Vec3 c, double squared_reach) const {
-  std::int64_t found = 0;
-  descend(
-      c, squared_reach, [&](const Node& node) { found += node.last - node.first; },
-      [&](const Node& node) {
-        for (auto i = static_cast<std::size_t>(node.first); i < static_cast<std::size_t>(node.last); ++i) {
-          found += squared_norm(c.x - x_[i], c.y - y_[i], c.z - z_[i]) <= squared_reach ? 1 : 0;
-        }
-      });
-  return found;
-}
-
-std::int32_t* SampleTree::find(Vec3 c, double squared_reach, std::int32_t* out) const {
-  descend(
-      c, squared_reach,
-      [&](const Node& node) { out = std::copy(ids_.begin() + node.first, ids_.begin() + node.last, out); },
-      [&](const Node& node) {
-        // Every index is written, and kept by advancing: no branch to mispredict. Hence the margin.
-        for (auto i = static_cast<std::size_t>(node.first); i < static_cast<std::size_t>(node.last); ++i) {
-          *out = ids_[i];
-          out += squared_norm(c.x - x_[i], c.y - y_[i], c.z - z_[i]) <= squared_reach ? 1 : 0;
-        }
-      });
-  return out;
 }
 
 }  // namespace ballflow::geometry

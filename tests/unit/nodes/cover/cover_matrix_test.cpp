@@ -75,6 +75,27 @@ TEST(cover_matrix, equals_the_definition_for_balls_of_all_sizes_anywhere) {
   EXPECT_LT(matrix.cover.nnz(), 750'000u);
 }
 
+TEST(cover_matrix, equals_the_definition_where_every_sample_is_about_as_far_as_the_radius) {
+  // Balls around the centre of a noisy sphere: their surfaces cross every leaf of the tree of samples, so
+  // answers are too large to be kept from the first pass to the second.
+  std::mt19937 random(11);
+  std::vector<Vec3> samples, centers;
+  std::vector<double> radii;
+  while (samples.size() < 9000) {
+    const Vec3 p{2 * test::unit(random) - 1, 2 * test::unit(random) - 1, 2 * test::unit(random) - 1};
+    if (const double l = length(p); l > 0.1 && l < 1)
+      samples.push_back(((1 + 1e-3 * test::unit(random)) / l) * p);
+  }
+  for (int k = 0; k < 300; ++k) {
+    centers.push_back({1e-4 * test::unit(random), 1e-4 * test::unit(random), 1e-4 * test::unit(random)});
+    radii.push_back(1 + 1e-3 * test::unit(random));
+  }
+  const Balls balls{centers, radii, {}, {}};
+  const PointSet points{samples, {}};
+  EXPECT_EQ(row_sets(cover_matrix(balls, points, {.uncovered = UncoveredPolicy::report}).cover),
+            brute_force(balls, points));
+}
+
 TEST(cover_matrix, gives_the_same_bytes_for_any_number_of_threads) {
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 4);
   const auto [balls, points] = test::torus(6000, 0.02, 11);
