@@ -1,20 +1,57 @@
 #include <algorithm>
+#include <charconv>
 
+#include "ballflow/gc.hpp"
 #include "ballflow/run.hpp"
+#include "process_usage.hpp"
 
 namespace ballflow {
 
-std::vector<bool> needed_nodes(const Dag& dag) {
+std::vector<bool> needed_nodes(const Dag& dag, const std::set<std::size_t>& targets) {
   std::vector<bool> needed(dag.nodes.size(), false);
-  const auto need = [&](const EdgeRef& edge) {
-    if (edge.node != loop_input) needed[edge.node] = true;
-  };
-  for (const DagOutput& output : dag.outputs) need(output.from);
+  for (const std::size_t target : targets) needed[target] = true;
   for (std::size_t i = dag.nodes.size(); i-- > 0;) {  // topological order: consumers come later
     if (!needed[i]) continue;
-    for (const auto& [port, edge] : dag.nodes[i].inputs) need(edge);
+    for (const auto& [port, edge] : dag.nodes[i].inputs) {
+      if (edge.node != loop_input) needed[edge.node] = true;
+    }
   }
   return needed;
+}
+
+std::vector<bool> needed_nodes(const Dag& dag) {
+  std::set<std::size_t> targets;
+  for (const DagOutput& output : dag.outputs) {
+    if (output.from.node != loop_input) targets.insert(output.from.node);
+  }
+  return needed_nodes(dag, targets);
+}
+
+std::set<std::size_t> nodes_named(const Dag& dag, const std::string& path) {
+  std::set<std::size_t> found;
+  std::vector<std::string> known;
+  for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
+    const std::string& node = dag.nodes[i].path;
+    known.push_back(node);
+    if (node == path || node.rfind(path + "/", 0) == 0) found.insert(i);
+  }
+  if (!found.empty()) return found;
+  const std::string near = nearest(path, known);
+  throw Error(ExitCode::usage, dag.file + " has no node \"" + path + "\"",
+              near.empty() ? "\"ballflow plan\" lists the nodes" : "did you mean \"" + near + "\"?");
+}
+
+std::optional<std::uint64_t> parse_memory(std::string_view text) {
+  if (!text.empty() && text.back() == '%') {
+    unsigned percent = 0;
+    const auto parsed = std::from_chars(text.data(), text.data() + text.size() - 1, percent);
+    if (parsed.ec != std::errc() || parsed.ptr != text.data() + text.size() - 1) return std::nullopt;
+    if (percent == 0 || percent > 100) return std::nullopt;
+    return physical_memory_bytes() / 100 * percent;
+  }
+  const auto bytes = parse_size(text);
+  if (!bytes || *bytes == 0 || *bytes == no_limit) return std::nullopt;
+  return bytes;
 }
 
 std::optional<ActionEntry> find_entry(Store& store, const NodeDeclaration& decl, const Digest& key) {

@@ -46,6 +46,22 @@ std::string_view to_string(ExitCode status) {
   return "";
 }
 
+Json node_report(const DagNode& node, const NodeResult& r) {
+  Json json = {{"type", node.decl->id},
+               {"status", to_string(r.status)},
+               {"reason", r.reason},
+               {"seconds", r.seconds},
+               {"cpu_seconds", r.cpu_seconds}};
+  if (r.iterations) json["iterations"] = *r.iterations;
+  if (!r.deterministic) json["deterministic"] = false;
+  json["params"] = Json::object();
+  for (const auto& [name, value] : node.params) json["params"][name] = value;
+  json["outputs"] = outputs_json(r.outputs);
+  if (!r.warnings.empty()) json["warnings"] = r.warnings;
+  if (r.status == NodeStatus::failed) json["error"] = {{"cause", r.cause}, {"hint", r.hint}};
+  return json;
+}
+
 Json run_report(const std::string& id, const Dag& dag, const RunResult& result) {
   Json report = {{"run", id},
                  {"graph", dag.file},
@@ -63,18 +79,7 @@ Json run_report(const std::string& id, const Dag& dag, const RunResult& result) 
   for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
     const DagNode& node = dag.nodes[i];
     const NodeResult& r = result.nodes[i];
-    Json json = {{"type", node.decl->id},
-                 {"status", to_string(r.status)},
-                 {"reason", r.reason},
-                 {"seconds", r.seconds},
-                 {"cpu_seconds", r.cpu_seconds}};
-    if (r.iterations) json["iterations"] = *r.iterations;
-    json["params"] = Json::object();
-    for (const auto& [name, value] : node.params) json["params"][name] = value;
-    json["outputs"] = outputs_json(r.outputs);
-    if (!r.warnings.empty()) json["warnings"] = r.warnings;
-    if (r.status == NodeStatus::failed) json["error"] = {{"cause", r.cause}, {"hint", r.hint}};
-    members.emplace_back(node.path, std::move(json));
+    members.emplace_back(node.path, node_report(node, r));
   }
   report["nodes"] = std::move(nodes);
   Json outputs = Json::object();

@@ -9,6 +9,7 @@
 
 #include "ballflow/graph.hpp"
 #include "ballflow/registry.hpp"
+#include "ballflow/run.hpp"
 #include "ballflow/store.hpp"
 
 namespace ballflow::cli {
@@ -32,6 +33,19 @@ struct GraphArguments {
 
   void add_to(CLI::App& command);
   std::vector<Override> overrides() const;
+};
+
+/// What decides how a graph runs.
+struct RunSettings {
+  unsigned threads = 0;
+  std::string memory;
+  std::uint64_t seed = 0;
+  bool keep_going = false, strict = false, check_determinism = false;
+  std::vector<std::string> until, only, force;
+
+  void add_to(CLI::App& command);
+  /// Throws Error (code usage) for a name that `dag` does not have and for a size that is none.
+  RunOptions options(const Dag& dag) const;
 };
 
 /// Registered commands put what they do here; main runs it after parsing.

@@ -14,6 +14,7 @@
 #include "ballflow/report.hpp"
 #include "ballflow/text.hpp"
 #include "commands.hpp"
+#include "event_lines.hpp"
 #include "export/export.hpp"
 #include "output_folder.hpp"
 #include "terminal.hpp"
@@ -31,11 +32,22 @@ void on_interrupt(int signal_number) {
 
 struct RunArguments {
   GraphArguments graph;
-  std::string out, report;
+  RunSettings settings;
+  std::string out, report, trace;
   std::vector<std::string> formats;
-  unsigned threads = 0;
-  std::uint64_t seed = 0;
-  bool quiet = false;
+  bool json = false, quiet = false;
+};
+
+/// Hands every event to several sinks.
+class Sinks final : public EventSink {
+ public:
+  void add(std::unique_ptr<EventSink> sink) { sinks_.push_back(std::move(sink)); }
+  void on(const Event& event) override {
+    for (const auto& sink : sinks_) sink->on(event);
+  }
+
+ private:
+  std::vector<std::unique_ptr<EventSink>> sinks_;
 };
 
 std::string quoted(const std::string& text) {
@@ -70,7 +82,7 @@ void print_failure(const Common& common, const RunArguments& arguments, const Da
   again += " run " + quoted(arguments.graph.file);
   if (!common.cache.empty()) again += " --cache " + quoted(common.cache);
   if (common.no_cache) again += " --no-cache";
-  if (arguments.seed != 0) again += " --seed " + std::to_string(arguments.seed);
+  if (arguments.settings.seed != 0) again += " --seed " + std::to_string(arguments.settings.seed);
   for (const std::string& set : arguments.graph.sets) again += " --set " + quoted(set);
   std::fprintf(stderr, "  again, from this node on: %s\n", printable(again).c_str());
 }
@@ -136,7 +148,8 @@ void check_formats(const Dag& dag, const std::map<std::string, std::string>& for
   }
 }
 
-void check_report(const std::string& path) {
+void check_writable(const std::string& option, const std::string& path) {
+  if (path.empty()) return;
   namespace fs = std::filesystem;
   std::error_code ignored;
   const fs::file_status status = fs::status(path, ignored);
@@ -145,8 +158,8 @@ void check_report(const std::string& path) {
   const std::string folder = parent.empty() ? "." : parent.string();
   const int code = fs::is_directory(status) ? EISDIR : access(folder.c_str(), W_OK | X_OK) != 0 ? errno : 0;
   if (code == 0) return;
-  throw Error(ExitCode::store, "cannot write the report " + path + ": " + std::strerror(code),
-              "choose a file in a folder that exists and can be written with --report");
+  throw Error(ExitCode::store, "cannot write " + option + " " + path + ": " + std::strerror(code),
+              "choose a file in a folder that exists and can be written");
 }
 
 int run(const Common& common, const RunArguments& arguments) {
@@ -165,7 +178,9 @@ int run(const Common& common, const RunArguments& arguments) {
   check_formats(dag, formats);
   // Before hours of computing, not after them.
   if (!arguments.out.empty()) prepare_folder(arguments.out);
-  if (!arguments.report.empty()) check_report(arguments.report);
+  check_writable("--report", arguments.report);
+  check_writable("--trace", arguments.trace);
+  RunOptions options = arguments.settings.options(dag);
   const auto store = common.store();
   if (!common.no_cache && !store->why().empty()) {
     std::fprintf(stderr, "warning: the cache is not written: %s\n", store->why().c_str());
@@ -177,16 +192,23 @@ int run(const Common& common, const RunArguments& arguments) {
   std::signal(SIGTERM, on_interrupt);
   // Who reads the progress may go; the results are wanted nevertheless.
   const auto on_broken_pipe = std::signal(SIGPIPE, SIG_IGN);
-  RunOptions options;
-  options.threads = arguments.threads;
-  options.seed = arguments.seed;
   options.cancel = &cancel_requested;
-  const auto display = arguments.quiet ? no_display() : progress_display(dag, isatty(STDERR_FILENO) != 0);
-  Runner runner(dag, *registry, store, options, *display, latest_manifests(*store, arguments.graph.file));
+  Sinks sinks;
+  if (!arguments.quiet) sinks.add(progress_display(dag, isatty(STDERR_FILENO) != 0));
+  if (arguments.json) sinks.add(event_lines(dag));
+  Trace* timeline = nullptr;
+  if (!arguments.trace.empty()) {
+    auto sink = trace(dag);
+    timeline = sink.get();
+    sinks.add(std::move(sink));
+  }
+  Runner runner(dag, *registry, store, options, sinks, latest_manifests(*store, arguments.graph.file));
   const RunResult& result = runner.run();
 
   WrittenOutputs written;
-  if (!arguments.out.empty() && result.status == ExitCode::ok) {
+  const bool usable =
+      result.status == ExitCode::ok || (result.status == ExitCode::node_failed && options.keep_going);
+  if (!arguments.out.empty() && usable) {
     written = write_outputs(arguments.out, dag, result, formats,
                             [&runner](const EdgeRef& edge) { return runner.artifact(edge); });
   }
@@ -195,27 +217,52 @@ int run(const Common& common, const RunArguments& arguments) {
   }
   const Json report = run_report(id, dag, result);
   save_run(*store, id, dag, result, report);
-  bool reported = false;
-  if (!arguments.report.empty()) {
+  std::vector<std::string> records;  // written beside the outputs
+  const auto record = [&](const char* what, const std::string& path, const std::string& text) {
+    if (path.empty()) return;
     try {
-      write_atomically(arguments.report, report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
-      reported = true;
+      write_atomically(path, text);
+      records.push_back(std::string(what) + " " + path);
     } catch (const Error& failure) {
       if (!written.failure) written.failure = failure;
     }
+  };
+  record("report", arguments.report, report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  if (timeline != nullptr) record("trace", arguments.trace, timeline->text());
+  if (arguments.json) {
+    Json files = Json::object();
+    for (const WrittenFile& file : written.files) files[file.output] = file.path;
+    print_line({{"event", "run_reported"},
+                {"run", id},
+                {"status", report["status"]},
+                {"seconds", result.seconds},
+                {"cpu_seconds", result.cpu_seconds},
+                {"peak_rss_bytes", result.peak_rss_bytes},
+                {"files", std::move(files)}});
   }
   std::signal(SIGPIPE, on_broken_pipe);
 
-  if (!arguments.quiet) {
+  if (!arguments.quiet && !arguments.json) {
     print_result(dag, result);
+    if (options.check_determinism && result.status == ExitCode::ok) {
+      std::printf("same results with 1 and with %u threads\n", several_threads(options));
+    }
     for (const WrittenFile& file : written.files) {
       std::printf("%s %s: %s\n", file.written ? "wrote" : "kept ", printable(file.path).c_str(),
                   printable(file.what).c_str());
     }
-    if (reported) std::printf("report %s\n", printable(arguments.report).c_str());
+    for (const std::string& line : records) std::printf("%s\n", printable(line).c_str());
   }
   for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
     if (result.nodes[i].status == NodeStatus::failed) print_failure(common, arguments, dag, result, i);
+  }
+  for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
+    if (result.nodes[i].deterministic || result.nodes[i].status == NodeStatus::failed) continue;
+    std::fprintf(stderr,
+                 "\nwarning: node %s (%s) is NOT DETERMINISTIC: it gave another result than before for equal "
+                 "inputs and parameters\n  its entry was replaced and what depends on it computed anew; find "
+                 "out what differs with --check-determinism\n",
+                 dag.nodes[i].path.c_str(), dag.nodes[i].decl->id.c_str());
   }
   if (result.status == ExitCode::cancelled) {
     std::fprintf(stderr,
@@ -247,11 +294,13 @@ void add_run(CLI::App& app, Common& common, Action& action) {
                    "(default: $BALLFLOW_CACHE_SIZE, else 20 GiB or a tenth of the disk, the smaller)")
       ->type_name("SIZE");
   command->add_flag("--no-cache", common.no_cache, "neither read nor write a cache");
+  arguments->settings.add_to(*command);
   command
-      ->add_option("--threads", arguments->threads,
-                   "number of threads; 0: all cores (the result never depends on it)")
-      ->check(CLI::Range(0u, 4096u));
-  command->add_option("--seed", arguments->seed, "seed of the nodes that use random numbers");
+      ->add_option("--trace", arguments->trace,
+                   "file that receives a time line of the run, to be opened in ui.perfetto.dev")
+      ->type_name("FILE");
+  command->add_flag("--json", arguments->json,
+                    "write events as lines of JSON (schemas/run_events.schema.json) to the standard output");
   command->add_flag("--quiet", arguments->quiet, "print errors only");
   command->callback(
       [&common, &action, arguments] { action = [&common, arguments] { return run(common, *arguments); }; });

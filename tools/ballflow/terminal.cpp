@@ -72,6 +72,9 @@ class Display final : public EventSink {
         erase_block();
         break;
       case Event::Kind::run_started:
+      case Event::Kind::node_waiting:
+      case Event::Kind::cache_read:
+      case Event::Kind::cache_write:
         break;
     }
   }

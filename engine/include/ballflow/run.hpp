@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,23 @@ struct RunOptions {
   std::uint64_t memory_bytes = 0;  // budget for the estimates of running nodes; 0: 80 % of the memory
   std::uint64_t seed = 0;
   const std::atomic<bool>* cancel = nullptr;  // polled; set it from anywhere to cancel
+
+  bool keep_going = false;  // after a failure go on with everything that does not need the failed node
+  /// A result that differs from an earlier one of the same key fails the node. Otherwise the new result
+  /// replaces the old one with a warning, and what depends on it is computed anew.
+  bool strict = false;
+  /// Run every node with 1 thread and with max(2, threads), also those that are in the cache, one after the
+  /// other. A node whose results differ fails, and its cause names the first array and element that differ.
+  bool check_determinism = false;
+
+  // Nodes by index into Dag::nodes.
+  std::set<std::size_t> until;  // these and what they need; empty: what the outputs of the graph need
+  std::set<std::size_t> only;   // these alone: what they need has to be in the cache. Excludes `until`
+  std::set<std::size_t> force;  // computed although they are in the cache; what follows them may be a hit
 };
+
+/// The greater number of threads of check_determinism.
+unsigned several_threads(const RunOptions& options);
 
 struct NodeResult {
   NodeStatus status = NodeStatus::pending;
@@ -33,6 +50,7 @@ struct NodeResult {
   std::vector<std::string> warnings;
   std::optional<std::int64_t> iterations;  // of a loop that ran
   std::string cause, hint;                 // of a failure
+  bool deterministic = true;               // false: two executions with the same key gave different results
 };
 
 struct RunResult {
@@ -55,8 +73,8 @@ class Runner {
   Runner(const Runner&) = delete;
   Runner& operator=(const Runner&) = delete;
 
-  /// Never throws for a failing node: the failure is in the result. After a failure nothing new is started;
-  /// what was running is finished and stored.
+  /// Never throws for a failing node: the failure is in the result. After a failure nothing new is started
+  /// (but see keep_going); what was running is finished and stored.
   const RunResult& run();
 
   /// The artifact of a finished output, from memory, from the store, or by running its node again. Throws
@@ -88,6 +106,16 @@ std::optional<ActionEntry> find_entry(Store& store, const NodeDeclaration& decl,
 
 /// Which nodes the outputs of the graph need; as Dag::nodes.
 std::vector<bool> needed_nodes(const Dag& dag);
+/// Which nodes these need, themselves included.
+std::vector<bool> needed_nodes(const Dag& dag, const std::set<std::size_t>& targets);
+
+/// The node of this path, or all nodes of this subgraph ("prune" has "prune/reduce" and "prune/greedy").
+/// Throws Error (code usage) with the nearest path when there is none.
+std::set<std::size_t> nodes_named(const Dag& dag, const std::string& path);
+
+/// A budget for the estimates of running nodes: "8G", bytes, or "50%" of the memory of this machine. Empty
+/// for anything else.
+std::optional<std::uint64_t> parse_memory(std::string_view text);
 
 /// What differs between two key manifests, in words ("params.epsilon 0.3 -> 0.5").
 std::vector<std::string> manifest_differences(const std::string& before, const std::string& now);

@@ -1,6 +1,8 @@
 // A plugin inside the test: small nodes whose executions are counted.
 #pragma once
 
+#include <oneapi/tbb/global_control.h>
+
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -41,6 +43,7 @@ struct Counters {
   std::atomic<int> heavy_now{0}, heavy_most{0};
 };
 inline Counters counters;
+inline std::atomic<bool> steady_noise{false};  // Noisy gives the same again
 inline void reset() {
   counters.source = counters.add = counters.round = counters.slow = counters.fail = counters.noisy =
       counters.heavy = 0;
@@ -189,7 +192,23 @@ struct Noisy {
     d.id("Noisy", 1).summary("Counts its executions.");
     d.output("numbers", &Noisy::numbers).doc("the count");
   }
-  void run(RunContext&) { numbers = Numbers{std::vector<double>{static_cast<double>(++counters.noisy)}}; }
+  void run(RunContext&) {
+    const int count = steady_noise ? counters.noisy.load() : ++counters.noisy;
+    numbers = Numbers{std::vector<double>{static_cast<double>(count)}};
+  }
+};
+
+/// Breaks it in the usual way: the result depends on the number of threads.
+struct Threads {
+  Out<Numbers> numbers;
+  static void declare(NodeDecl<Threads>& d) {
+    d.id("Threads", 1).summary("Counts the threads it may use.");
+    d.output("numbers", &Threads::numbers).doc("the count");
+  }
+  void run(RunContext&) {
+    const auto threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    numbers = Numbers{std::vector<double>{static_cast<double>(threads)}};
+  }
 };
 
 /// Hands over what its type forbids.
@@ -257,7 +276,7 @@ struct Babble {
 
 inline const bf_plugin& plugin() {
   static const std::vector<const bf_node*> nodes =
-      node_entries<Source, Add, Round, Slow, Fail, Step, Noisy, Negative, Heavy, FromFile, Babble>();
+      node_entries<Source, Add, Round, Slow, Fail, Step, Noisy, Threads, Negative, Heavy, FromFile, Babble>();
   static const std::vector<const bf_type*> types = type_entries<Numbers>();
   static const bf_plugin plugin = {sizeof(bf_plugin),  BALLFLOW_ABI_VERSION, detail::bytes("toy"),
                                    detail::bytes("1"), types.data(),         types.size(),
