@@ -15,7 +15,7 @@ namespace {
 class Connector {
  public:
   Connector(const Expansion& expansion, const Registry& registry, Findings& findings)
-      : expansion_(expansion), registry_(registry), findings_(findings) {
+      : expansion_(expansion), findings_(findings) {
     for (const auto& [id, type] : registry.types()) type_names_.push_back(id);
     for (const auto& [id, node] : registry.nodes()) {
       for (const std::vector<PortDecl>* ports : {&node.inputs, &node.outputs}) {
@@ -522,7 +522,6 @@ class Connector {
   }
 
   const Expansion& expansion_;
-  const Registry& registry_;
   Findings& findings_;
   std::vector<std::string> type_names_;
   std::vector<std::vector<Memo>> resolved_;            // by scope and output

@@ -86,7 +86,8 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
 
   bool parse_error(std::size_t position, const std::string&,
                    const nlohmann::detail::exception& error) override {
-    syntax_error(position + text_begin(text_), error.what());
+    constexpr int out_of_range = 406;  // the parser's number for a number that is too large
+    syntax_error(position + text_begin(text_), error.what(), error.id == out_of_range);
     return false;
   }
 
@@ -186,7 +187,15 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
     findings_.push_back(std::move(found));
   }
 
-  void syntax_error(std::size_t position, const std::string& what) {
+  void syntax_error(std::size_t position, std::string what, bool number_too_large) {
+    // After "; last read: '" the parser repeats the text, which may contain anything, the words of its own
+    // messages too; the caret shows it better.
+    const std::size_t last_read = what.find("; last read: '");
+    if (last_read != std::string::npos) {
+      const std::size_t tail = what.rfind("'; expected ");
+      what = what.substr(0, last_read) +
+             (tail != std::string::npos && tail > last_read ? what.substr(tail + 1) : std::string());
+    }
     // `position` counts the bytes read, so it ends the offending token, whose start is what a reader looks
     // for.
     std::size_t at = std::min(position == 0 ? 0 : position - 1, text_.size());
@@ -197,7 +206,7 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
     const std::string_view rest = text_.substr(std::min(at, text_.size()));
 
     std::string message, hint;
-    if (what.find("number overflow") != std::string::npos) {
+    if (number_too_large) {
       message = "the number " +
                 printable(rest.substr(0, std::min<std::size_t>(token_end(text_, at) - at, 40))) +
                 " is too large";
@@ -211,13 +220,6 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
       if (dash != std::string::npos) {
         context = message.substr(0, dash);
         message = message.substr(dash + 3);
-      }
-      // "; last read: '...'" repeats raw bytes that the caret shows.
-      const std::size_t last_read = message.find("; last read: '");
-      if (last_read != std::string::npos) {
-        const std::size_t tail = message.rfind("'; expected ");
-        message = message.substr(0, last_read) +
-                  (tail != std::string::npos && tail > last_read ? message.substr(tail + 1) : std::string());
       }
       message =
           "not JSON: " + printable(message) + (context.empty() ? "" : " (in " + printable(context) + ")");

@@ -19,14 +19,16 @@ ProcessResult run_process(const std::vector<std::string>& command,
                           int signal) {
   const TempFolder folder;
   const std::string out = folder.file("out"), err = folder.file("err");
+  for (const std::string& file : {out, err})
+    write_file(file, "");  // a child may be killed before it opens them
   const auto start = std::chrono::steady_clock::now();
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("cannot fork");
   if (child == 0) {
     for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
     const int null = open("/dev/null", O_RDONLY);
-    const int o = open(out.c_str(), O_WRONLY | O_CREAT, 0600);
-    const int e = open(err.c_str(), O_WRONLY | O_CREAT, 0600);
+    const int o = open(out.c_str(), O_WRONLY);
+    const int e = open(err.c_str(), O_WRONLY);
     dup2(null, 0);
     dup2(o, 1);
     dup2(e, 2);
