@@ -20,7 +20,6 @@ inline void replay_corpus(const std::string& name) {
   for (const auto& entry :
        std::filesystem::directory_iterator(source_file("tests/fuzz/" + name + "/corpus"))) {
     const std::string content = read_file(entry.path());
-    RecordProperty("input", entry.path().filename());
     LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(content.data()), content.size());
     ++inputs;
   }
