@@ -11,10 +11,22 @@
 
 namespace ballflow::geometry {
 
+/// A smallest set of rows is looked for such that every column contains one of them.
+struct IpProblem {
+  std::size_t rows = 0;
+  const Csr& columns;           // non-empty sets of numbers in [0, rows)
+  std::int64_t upper_bound;     // only covers of fewer rows are of interest; rows + 1 for all
+  std::int64_t node_limit = 0;  // the search gives up after so many branch-and-bound nodes
+};
+
+/// What a solver says. Nothing of it is believed before it was checked, as far as it can be.
 struct IpAnswer {
-  bool proven = false;             // `rows` was proven to be a smallest cover
-  std::vector<std::int32_t> rows;  // ascending; empty unless proven
+  bool finished = false;  // the search ended: `rows` is a smallest cover, or none is below upper_bound
+  // The smallest cover below upper_bound that was found, ascending, or nothing.
+  std::vector<std::int32_t> rows = {};
+  std::int64_t lower_bound = 0;    // no cover has fewer rows; at most upper_bound
   std::int64_t nodes = 0;          // nodes of the branch-and-bound tree that were visited
+  std::vector<double> duals = {};  // optimal dual prices of the columns in the linear relaxation, or none
 };
 
 /// Equal problems get equal answers: no clock, no random numbers. Safe to call from several threads.
@@ -22,15 +34,18 @@ class IpSolver {
  public:
   virtual ~IpSolver() = default;
 
-  /// A smallest set of rows such that every column contains one of them. `columns` are non-empty sets of
-  /// numbers in [0, rows). Gives up, unproven, after `node_limit` nodes. Throws Cancelled.
-  virtual IpAnswer solve(std::size_t rows, const Csr& columns, std::int64_t node_limit, Monitor& monitor) = 0;
+  /// Throws Cancelled within a second of the monitor's wish.
+  virtual IpAnswer solve(const IpProblem& problem, Monitor& monitor) = 0;
 };
 
-/// lp_solve 5.5. Its library keeps state in static variables, so calls take turns.
+/// lp_solve 5.5: good for small problems. Its library keeps state in static variables, so calls take turns.
 std::unique_ptr<IpSolver> make_lp_solve();
 
-/// Version of the lp_solve library: "5.5.2.5".
+/// COIN-OR branch and cut, one thread: for problems of some thousand rows.
+std::unique_ptr<IpSolver> make_cbc();
+
+/// Versions of the libraries: "5.5.2.5", "2.10.8".
 std::string lp_solve_version();
+std::string cbc_version();
 
 }  // namespace ballflow::geometry

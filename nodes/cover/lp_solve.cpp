@@ -29,47 +29,72 @@ int __WINAPI should_stop(lprec* problem, void* handle) {
 
 class LpSolve final : public IpSolver {
  public:
-  IpAnswer solve(std::size_t rows, const Csr& columns, std::int64_t node_limit, Monitor& monitor) override {
+  IpAnswer solve(const IpProblem& ip, Monitor& monitor) override {
     static std::mutex one_at_a_time;
     const std::scoped_lock lock(one_at_a_time);
 
-    const auto count = static_cast<int>(rows);
+    const auto count = static_cast<int>(ip.rows);
     const std::unique_ptr<lprec, void (*)(lprec*)> problem(make_lp(0, count), delete_lp);
     if (!problem) throw std::bad_alloc();
     lprec* lp = problem.get();
     set_verbose(lp, NEUTRAL);
     set_minim(lp);
-    std::vector<REAL> ones(rows + 1, 1.0);
+    std::vector<REAL> ones(ip.rows + 1, 1.0);
     if (set_obj_fn(lp, ones.data()) == FALSE) throw std::bad_alloc();
     set_add_rowmode(lp, TRUE);
     std::vector<int> variables;
-    for (std::size_t c = 0; c < columns.size(); ++c) {
+    for (std::size_t c = 0; c < ip.columns.size(); ++c) {
       variables.clear();
-      for (const std::int32_t i : columns[c]) variables.push_back(i + 1);
+      for (const std::int32_t i : ip.columns[c]) variables.push_back(i + 1);
       if (add_constraintex(lp, static_cast<int>(variables.size()), ones.data(), variables.data(), GE, 1) ==
           FALSE) {
         throw std::bad_alloc();
       }
     }
     set_add_rowmode(lp, FALSE);
-    for (int i = 1; i <= count; ++i) set_binary(lp, i, TRUE);
-    set_bb_floorfirst(lp, BRANCH_CEILING);
+    for (int i = 1; i <= count; ++i) set_upbo(lp, i, 1);
     set_timeout(lp, 0);  // no limit: a clock would make the answer depend on the machine's load
     set_anti_degen(lp, ANTIDEGEN_NONE);  // its perturbations come from a generator seeded by the clock
-    Watch watch{node_limit, monitor};
+    Watch watch{ip.node_limit, monitor};
     put_abortfunc(lp, should_stop, &watch);
 
+    IpAnswer answer;
+    set_presolve(lp, PRESOLVE_SENSDUALS, 0);
+    const int relaxed = ::solve(lp);
+    if (watch.cancelled) throw Cancelled();
+    REAL* values = nullptr;
+    if (relaxed == OPTIMAL && get_ptr_dual_solution(lp, &values) != FALSE) {
+      answer.duals.assign(values + 1, values + 1 + ip.columns.size());
+    }
+
+    set_presolve(lp, PRESOLVE_NONE, 0);
+    default_basis(lp);
+    for (int i = 1; i <= count; ++i) set_binary(lp, i, TRUE);
+    set_bb_floorfirst(lp, BRANCH_CEILING);
+    // One more constraint instead of a bound on the objective: the library forgets such bounds.
+    const bool bounded = ip.upper_bound <= static_cast<std::int64_t>(ip.rows);
+    if (bounded) {
+      std::vector<int> all;
+      for (int i = 1; i <= count; ++i) all.push_back(i);
+      if (add_constraintex(lp, count, ones.data(), all.data(), LE, static_cast<REAL>(ip.upper_bound - 1)) ==
+          FALSE) {
+        throw std::bad_alloc();
+      }
+    }
     const int status = ::solve(lp);
     if (watch.cancelled) throw Cancelled();
-    IpAnswer answer;
     answer.nodes = get_total_nodes(lp);
-    if (status != OPTIMAL || watch.over_limit) return answer;
-    REAL* values = nullptr;
-    if (get_ptr_variables(lp, &values) == FALSE) return answer;
+    if (watch.over_limit) return answer;
+    if (status == INFEASIBLE && bounded) {
+      answer.finished = true;
+      answer.lower_bound = ip.upper_bound;
+    }
+    if (status != OPTIMAL || get_ptr_variables(lp, &values) == FALSE) return answer;
     for (int i = 0; i < count; ++i) {
       if (values[i] > 0.5) answer.rows.push_back(i);
     }
-    answer.proven = true;
+    answer.finished = true;
+    answer.lower_bound = static_cast<std::int64_t>(answer.rows.size());
     return answer;
   }
 };

@@ -24,14 +24,16 @@ struct Reduce {
         "gives "
         "the same residual matrix.");
     d.avoid_when("a greedy cover is good enough: Greedy alone is faster on the whole matrix.");
-    d.cites("kornberger2010", "3.6.1 and 3.8.2");
+    d.cites("kornberger2010", "3.6.1 and 3.8.2").cites("cuthill1969", "2");
     d.input("cover", &Reduce::cover).doc("any state of a set covering computation");
     d.output("cover", &Reduce::reduced).doc("the same instance: essential balls chosen, a smaller matrix");
     d.choice("subset_test", &Reduce::options, &ReduceOptions::subset_test,
              {{SubsetTest::inverted_index, "inverted_index",
                "compares with the sets that share the rarest element"},
               {SubsetTest::hash, "hash",
-               "compares signatures of 64 sections with those of all other sets: quadratic, for comparison"}})
+               "compares signatures of 64 sections with those of all other sets: quadratic, for comparison"},
+              {SubsetTest::bandwidth, "bandwidth",
+               "compares with the sets nearby after a bandwidth-reducing permutation, for comparison"}})
         .doc("how candidates for an inclusion are found: changes the time, not the result")
         .not_hashed();
     d.memory(1 << 20, 2.5);

@@ -2,13 +2,19 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <limits>
 #include <string>
 #include <thread>
 
 #include "cover/components.hpp"
 #include "cover/greedy.hpp"
+#include "cover/load_cover.hpp"
 #include "cover/reduce.hpp"
+#include "cover/verify_cover.hpp"
 #include "cover_oracle.hpp"
+#include "sample/read_mesh.hpp"
+#include "test_data.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -20,7 +26,7 @@ using test::state_of;
 class FakeSolver final : public IpSolver {
  public:
   explicit FakeSolver(IpAnswer answer) : answer_(std::move(answer)) {}
-  IpAnswer solve(std::size_t, const Csr&, std::int64_t, Monitor&) override {
+  IpAnswer solve(const IpProblem&, Monitor&) override {
     ++calls;
     return answer_;
   }
@@ -43,10 +49,24 @@ Sets fano_planes(int count) {
   return rows;
 }
 
-TEST(ip_solve, finds_the_optimum_of_random_instances) {
+struct Solver {
+  const char* name;
+  std::unique_ptr<IpSolver> (*make)();
+};
+void PrintTo(const Solver& solver, std::ostream* out) { *out << solver.name; }
+
+class EverySolver : public testing::TestWithParam<Solver> {
+ protected:
+  const std::unique_ptr<IpSolver> solver = GetParam().make();
+};
+
+INSTANTIATE_TEST_SUITE_P(ip_solve, EverySolver,
+                         testing::Values(Solver{"lp_solve", make_lp_solve}, Solver{"cbc", make_cbc}),
+                         [](const auto& instance) { return std::string(instance.param.name); });
+
+TEST_P(EverySolver, finds_the_optimum_of_random_instances) {
   std::mt19937 random(21);
-  const auto solver = make_lp_solve();
-  for (int round = 0; round < 3000; ++round) {
+  for (int round = 0; round < 2000; ++round) {
     const std::size_t rows = 1 + random() % 12, columns = 1 + random() % 20;
     const CoverState state =
         state_of(test::random_sets(random, rows, columns, 0.08 + 0.4 * test::unit(random)), columns);
@@ -57,6 +77,7 @@ TEST(ip_solve, finds_the_optimum_of_random_instances) {
     ASSERT_EQ(static_cast<std::int64_t>(solved.chosen.size()), test::optimum(state)) << "round " << round;
     ASSERT_EQ(solved.lower_bound, test::optimum(state));
     ASSERT_EQ(solved.count(Choice::exact), static_cast<std::int64_t>(solved.chosen.size()));
+    ASSERT_TRUE(test::certificate_error(state, solved).empty()) << "round " << round;
   }
 }
 
@@ -107,52 +128,194 @@ TEST(ip_solve, leaves_components_that_are_too_large) {
 
 TEST(ip_solve, leaves_a_component_that_needs_too_many_nodes) {
   const CoverState state = state_of(fano_planes(1), 7);
-  FakeSolver gives_up({.proven = false, .rows = {}, .nodes = 0});
-  EXPECT_TRUE(test::same(ip_solve(state, gives_up), state));
+  FakeSolver gives_up({});
+  const CoverState left = ip_solve(state, gives_up);
+  EXPECT_EQ(left.columns, state.columns);
+  EXPECT_TRUE(left.chosen.empty());
+  EXPECT_EQ(left.lower_bound, 3);  // ceil(7 / 3)
   EXPECT_EQ(gives_up.calls, 1);
 }
 
-TEST(ip_solve, node_limit_ends_the_search_the_same_way_every_time) {
-  // Random 3-of-40 columns need branching.
+/// 90 columns of 3 among 30 rows at random: needs branching.
+CoverState hard_instance() {
   std::mt19937 random(4);
-  Sets rows(40);
-  for (std::int32_t c = 0; c < 120; ++c) {
+  Sets rows(30);
+  for (std::int32_t c = 0; c < 90; ++c) {
     std::set<std::size_t> members;
-    while (members.size() < 3) members.insert(random() % 40);
+    while (members.size() < 3) members.insert(random() % 30);
     for (const std::size_t i : members) rows[i].push_back(c);
   }
-  const CoverState state = state_of(rows, 120);
-  const Csr columns = transpose({state.row_offsets, state.columns}, state.cols());
-  const auto solver = make_lp_solve();
-  const IpAnswer full = solver->solve(40, columns, 1'000'000, no_monitor());
-  ASSERT_TRUE(full.proven);
-  ASSERT_GT(full.nodes, 20) << "the instance is too easy to test the limit";
-  EXPECT_FALSE(solver->solve(40, columns, full.nodes / 2, no_monitor()).proven);
+  return state_of(rows, 90);
+}
+
+TEST_P(EverySolver, node_limit_ends_the_search_the_same_way_every_time) {
+  const CoverState state = hard_instance();
+  const Csr columns = transpose(rows_of(state), state.cols());
+  const auto answer = [&](std::int64_t limit) {
+    return solver->solve({30, columns, 31, limit}, no_monitor());
+  };
+  const IpAnswer full = answer(1'000'000);
+  ASSERT_TRUE(full.finished);
+  ASSERT_GT(full.nodes, 2) << "the instance is too easy to test the limit";
+  const IpAnswer half = answer(full.nodes / 2);
+  EXPECT_FALSE(half.finished);
+  EXPECT_LE(half.lower_bound, static_cast<std::int64_t>(full.rows.size()));
   for (int k = 0; k < 3; ++k) {
-    const IpAnswer again = solver->solve(40, columns, 1'000'000, no_monitor());
+    const IpAnswer again = answer(1'000'000);
     EXPECT_EQ(again.rows, full.rows);
     EXPECT_EQ(again.nodes, full.nodes);
+    EXPECT_EQ(again.duals, full.duals);
   }
 }
 
-TEST(ip_solve, gives_equal_answers_in_concurrent_threads) {
+TEST(ip_solve, solvers_agree_on_what_is_too_large_for_exhaustive_search) {
+  std::mt19937 random(31);
+  for (int round = 0; round < 60; ++round) {
+    const std::size_t columns = 20 + random() % 60;
+    const CoverState state = state_of(test::random_sets(random, 20 + random() % 30, columns, 0.1), columns);
+    const CoverState a = ip_solve(state, *make_lp_solve()), b = ip_solve(state, *make_cbc());
+    EXPECT_EQ(a.remaining(), 0u);
+    EXPECT_EQ(a.chosen.size(), b.chosen.size());
+    EXPECT_TRUE(test::covers(state, b));
+  }
+}
+
+TEST_P(EverySolver, improves_a_known_cover_or_proves_it_the_best) {
+  std::mt19937 random(23);
+  int improved = 0, kept = 0;
+  for (int round = 0; round < 500; ++round) {
+    const std::size_t rows = 4 + random() % 9, columns = 4 + random() % 16;
+    const CoverState state =
+        state_of(test::random_sets(random, rows, columns, 0.1 + 0.2 * test::unit(random)), columns);
+    const CoverState known = greedy(state);
+    const CoverState solved = ip_solve(state, *solver, {}, no_monitor(), &known);
+    ASSERT_EQ(broken_invariant(solved), "");
+    ASSERT_TRUE(test::covers(state, solved));
+    ASSERT_EQ(static_cast<std::int64_t>(solved.chosen.size()), test::optimum(state)) << "round " << round;
+    ASSERT_EQ(solved.lower_bound, test::optimum(state));
+    ASSERT_EQ(solved.count(Choice::exact), test::optimum(state));
+    ++(solved.chosen.size() < known.chosen.size() ? improved : kept);
+  }
+  EXPECT_GT(improved, 10);
+  EXPECT_GT(kept, 10);
+}
+
+TEST(ip_solve, falls_back_on_the_known_cover) {
+  const CoverState state = state_of(fano_planes(2), 14), known = greedy(state);
+  FakeSolver gives_up({});
+  const CoverState by_limit = ip_solve(state, gives_up, {}, no_monitor(), &known);
+  const CoverState by_size = ip_solve(state, gives_up, {.max_balls = 6}, no_monitor(), &known);
+  EXPECT_EQ(gives_up.calls, 2);
+  for (const CoverState& cover : {by_limit, by_size}) {
+    EXPECT_EQ(broken_invariant(cover), "");
+    EXPECT_TRUE(test::covers(state, cover));
+    EXPECT_EQ(cover.chosen.size(), known.chosen.size());
+    EXPECT_EQ(cover.count(Choice::greedy), known.count(Choice::greedy)) << "nothing is claimed about it";
+  }
+  // A better cover from a search that did not end is nobody's optimum.
+  const CoverState plane = state_of(fano_planes(1), 7), all = greedy(plane, {.mode = GreedyMode::all});
+  FakeSolver stops_early({.rows = {0, 1, 2, 3}, .lower_bound = 3});
+  const CoverState better = ip_solve(plane, stops_early, {}, no_monitor(), &all);
+  EXPECT_EQ(better.count(Choice::trusted), 4);
+  EXPECT_EQ(better.lower_bound, 3);
+}
+
+TEST(ip_solve, keeps_the_better_bound_of_the_known_cover) {
+  const CoverState state = state_of(fano_planes(1), 7);
+  CoverState known = greedy(state);
+  ASSERT_EQ(known.chosen.size(), 3u);
+  known.lower_bound = 3;
+  known.lower_bound_how = static_cast<std::uint8_t>(BoundHow::share);
+  FakeSolver gives_up({});
+  const CoverState kept = ip_solve(state, gives_up, {}, no_monitor(), &known);
+  EXPECT_EQ(kept.lower_bound, 3);
+  EXPECT_EQ(kept.lower_bound_how, static_cast<std::uint8_t>(BoundHow::share));
+}
+
+TEST(ip_solve, refuses_a_known_cover_of_something_else) {
+  const CoverState state = state_of(fano_planes(1), 7), other = state_of({{0}}, 1);
+  const CoverState unfinished = state, of_other = greedy(other);
+  CoverState gap = greedy(state);
+  gap.chosen = {0};
+  gap.chosen_how = {2};
+  for (const CoverState* known : {&unfinished, &of_other, &std::as_const(gap)}) {
+    EXPECT_THROW(ip_solve(state, *make_lp_solve(), {}, no_monitor(), known), InputError);
+  }
+}
+
+TEST(ip_solve, proves_the_coverage_axis_instance_with_cbc) {
+  const std::string balls = test::data_file("coverage_axis/01Ants-27_candidates.txt.gz"),
+                    samples = test::data_file("coverage_axis/01Ants-27_samples.pts.gz");
+  if (balls.empty() || samples.empty()) GTEST_SKIP() << "no test data";
+  const PointSet points = read_mesh_file(samples).points;
+  const LoadedCover loaded = load_cover({.file = balls, .dilation = 0.03}, &points);
+  const CoverState solved = ip_solve(reduce(loaded.cover), *make_cbc(), {.max_balls = 2000});
+  EXPECT_EQ(solved.remaining(), 0u);
+  EXPECT_EQ(solved.chosen.size(), 41u);
+  EXPECT_EQ(solved.lower_bound, 41);
+  EXPECT_TRUE(verify_cover(select(loaded.balls, solved.chosen), points).uncovered.empty());
+}
+
+TEST(ip_solve, finds_published_optima_with_cbc) {
+  // Points that block all lines of a plane over three elements: all but a largest cap.
+  EXPECT_EQ(ip_solve(load_cover({.file = "steiner:9"}).cover, *make_cbc()).lower_bound, 9 - 4);
+  const std::string file = test::data_file("setcover/scpe1.txt.gz");
+  if (file.empty()) GTEST_SKIP() << "no test data";
+  const CoverState solved =
+      ip_solve(reduce(load_cover({.file = file}).cover), *make_cbc(), {.max_balls = 500});
+  EXPECT_EQ(solved.chosen.size(), 5u);
+}
+
+TEST_P(EverySolver, prints_nothing) {
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  ip_solve(hard_instance(), *solver, {.node_limit = 20});
+  std::fflush(nullptr);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST_P(EverySolver, gives_equal_answers_in_concurrent_threads) {
   const CoverState state = state_of(fano_planes(20), 140);
-  const CoverState alone = ip_solve(state, *make_lp_solve());
+  const CoverState alone = ip_solve(state, *solver);
   CoverState a, b;
-  std::thread other([&] { a = ip_solve(state, *make_lp_solve()); });
-  b = ip_solve(state, *make_lp_solve());
+  std::thread other([&] { a = ip_solve(state, *GetParam().make()); });
+  b = ip_solve(state, *solver);
   other.join();
   EXPECT_TRUE(test::same(a, alone));
   EXPECT_TRUE(test::same(b, alone));
 }
 
 TEST(ip_solve, never_takes_a_solver_at_its_word) {
-  FakeSolver wrong({.proven = true, .rows = {0, 1}, .nodes = 1});
-  try {
-    ip_solve(state_of(fano_planes(1), 7), wrong);
-    FAIL() << "two lines do not cover a Fano plane";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("component 0"), std::string::npos) << error.what();
+  const CoverState state = state_of(fano_planes(1), 7), known = greedy(state, {.mode = GreedyMode::all});
+  for (const IpAnswer& wrong :
+       {IpAnswer{.finished = true, .rows = {0, 1}, .lower_bound = 2},        // two lines cover no plane
+        IpAnswer{.finished = true, .rows = {0, 1, 2, 3}, .lower_bound = 5},  // contradicts itself
+        IpAnswer{.finished = true, .rows = {0, 1, 2, 3, 4, 5, 6}},           // no better than all
+        IpAnswer{.finished = false, .rows = {}, .lower_bound = 8}}) {        // more than all
+    FakeSolver solver(wrong);
+    try {
+      ip_solve(state, solver, {}, no_monitor(), &known);
+      ADD_FAILURE() << "believed " << wrong.rows.size() << " rows";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("component 0"), std::string::npos) << error.what();
+    }
+  }
+  FakeSolver nothing({.finished = true});
+  EXPECT_THROW(ip_solve(state, nothing), InputError) << "all rows are a cover";
+}
+
+TEST(ip_solve, prices_of_a_solver_prove_no_more_than_they_may) {
+  const CoverState state = state_of(fano_planes(1), 7);
+  for (const double price : {-1.0, 0.0, 0.2, 1.0 / 3, 0.5, 1e300, std::numeric_limits<double>::quiet_NaN()}) {
+    FakeSolver solver({.finished = true,
+                       .rows = {0, 1, 2},
+                       .lower_bound = 3,
+                       .nodes = 0,
+                       .duals = std::vector<double>(7, price)});
+    const CoverState solved = ip_solve(state, solver);
+    EXPECT_TRUE(test::certificate_error(state, solved).empty()) << price;
+    EXPECT_EQ(solved.certified_bound(), price > 0.3 ? 3 : price > 0 ? 2 : 0) << price;
   }
 }
 
@@ -173,13 +336,35 @@ TEST(ip_solve, accepts_an_empty_matrix) {
   EXPECT_TRUE(ip_solve(state_of({}, 0), unused).chosen.empty());
 }
 
-TEST(ip_solve, stops_when_cancelled_inside_the_solver) {
-  class StopInside final : public Monitor {
-   public:
-    bool cancelled() override { return ++looks > 2; }
-    int looks = 0;
-  } stop;
-  EXPECT_THROW(ip_solve(state_of(fano_planes(1), 7), *make_lp_solve(), {}, stop), Cancelled);
+/// Wants no more after `seconds`.
+class StopAfter final : public Monitor {
+ public:
+  explicit StopAfter(double seconds) : until_(now() + seconds) {}
+  bool cancelled() override { return now() > until_; }
+  double late() const { return now() - until_; }
+
+ private:
+  static double now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  }
+  double until_;
+};
+
+TEST_P(EverySolver, stops_when_cancelled_inside_the_solver) {
+  // Neither ends this within minutes.
+  StopAfter stop(0.1);
+  EXPECT_THROW(ip_solve(load_cover({.file = "steiner:243"}).cover, *solver,
+                        {.max_balls = 243, .node_limit = 1'000'000'000}, stop),
+               Cancelled);
+  EXPECT_LT(stop.late(), 1 + 2) << "two more seconds for a busy machine";
+}
+
+TEST(ip_solve, stops_cbc_inside_a_large_linear_program) {
+  std::mt19937 random(6);
+  const CoverState state = state_of(test::random_sets(random, 3000, 3000, 0.01), 3000);
+  StopAfter stop(0.3);
+  EXPECT_THROW(ip_solve(state, *make_cbc(), {.max_balls = 3000}, stop), Cancelled);
+  EXPECT_LT(stop.late(), 1 + 2) << "two more seconds for a busy machine";
 }
 
 TEST(components, are_those_of_the_incidence_graph) {

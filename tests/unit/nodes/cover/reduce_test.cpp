@@ -16,6 +16,7 @@ using test::Sets;
 using test::state_of;
 
 constexpr ReduceOptions by_hash{.subset_test = SubsetTest::hash};
+constexpr ReduceOptions by_bandwidth{.subset_test = SubsetTest::bandwidth};
 
 /// The three rules as they are written down, pass by pass, on sets of original ids.
 CoverState reduced_by_definition(const CoverState& state) {
@@ -99,7 +100,7 @@ TEST(reduce, is_the_fixed_point_of_the_rules_as_they_are_written_down) {
     const CoverState state =
         state_of(test::random_sets(random, rows, columns, 0.05 + 0.6 * test::unit(random)), columns);
     const CoverState expected = reduced_by_definition(state);
-    for (const ReduceOptions& options : {ReduceOptions{}, by_hash}) {
+    for (const ReduceOptions& options : {ReduceOptions{}, by_hash, by_bandwidth}) {
       const CoverState reduced = reduce(state, options);
       ASSERT_EQ(broken_invariant(reduced), "");
       ASSERT_EQ(row_sets(reduced), row_sets(expected)) << "round " << round;
@@ -139,6 +140,7 @@ TEST(reduce, leaves_nothing_to_reduce_of_a_matrix_of_balls) {
     EXPECT_TRUE(test::covers(state, greedy(reduced)));
     EXPECT_LT(reduced.nnz(), state.nnz() / 2);
     EXPECT_TRUE(test::same(reduced, reduce(state, by_hash)));
+    EXPECT_TRUE(test::same(reduced, reduce(state, by_bandwidth)));
     EXPECT_TRUE(test::same(reduced, reduce(reduced)));
   }
 }
