@@ -12,56 +12,54 @@ namespace {
 
 constexpr int key_format = 1;
 
-void add_u64(Hasher& hasher, std::uint64_t value) {
-  unsigned char bytes[8];
-  for (int i = 0; i < 8; ++i) bytes[i] = static_cast<unsigned char>(value >> (8 * i));
-  hasher.add(bytes, sizeof bytes);
+void add_u64(std::string& bytes, std::uint64_t value) {
+  for (int i = 0; i < 8; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xff);
 }
 
-void add_tag(Hasher& hasher, char tag) { hasher.add(&tag, 1); }
+void add_tag(std::string& bytes, char tag) { bytes += tag; }
 
-void add_text(Hasher& hasher, std::string_view text) {
-  add_u64(hasher, text.size());
-  hasher.add(text);
+void add_text(std::string& bytes, std::string_view text) {
+  add_u64(bytes, text.size());
+  bytes += text;
 }
 
 // Every value starts with a tag of its kind and every variable-length part with its length, so that no two
 // different manifests give the same bytes.
-void add_value(Hasher& hasher, const Json& value) {
+void add_value(std::string& bytes, const Json& value) {
   switch (value.type()) {
     case Json::value_t::null:
-      add_tag(hasher, 'n');
+      add_tag(bytes, 'n');
       break;
     case Json::value_t::boolean:
-      add_tag(hasher, value.get<bool>() ? 't' : 'f');
+      add_tag(bytes, value.get<bool>() ? 't' : 'f');
       break;
     case Json::value_t::number_integer:
     case Json::value_t::number_unsigned:
-      add_tag(hasher, 'i');
-      add_u64(hasher, static_cast<std::uint64_t>(value.get<std::int64_t>()));
+      add_tag(bytes, 'i');
+      add_u64(bytes, static_cast<std::uint64_t>(value.get<std::int64_t>()));
       break;
     case Json::value_t::number_float:
-      add_tag(hasher, 'd');
-      add_u64(hasher, std::bit_cast<std::uint64_t>(value.get<double>() + 0.0));  // -0 + 0 = +0
+      add_tag(bytes, 'd');
+      add_u64(bytes, std::bit_cast<std::uint64_t>(value.get<double>() + 0.0));  // -0 + 0 = +0
       break;
     case Json::value_t::string:
-      add_tag(hasher, 's');
-      add_text(hasher, value.get_ref<const std::string&>());
+      add_tag(bytes, 's');
+      add_text(bytes, value.get_ref<const std::string&>());
       break;
     case Json::value_t::array:
-      add_tag(hasher, 'a');
-      add_u64(hasher, value.size());
-      for (const Json& item : value) add_value(hasher, item);
+      add_tag(bytes, 'a');
+      add_u64(bytes, value.size());
+      for (const Json& item : value) add_value(bytes, item);
       break;
     case Json::value_t::object: {
       std::vector<std::pair<std::string, const Json*>> members;
       for (const auto& [name, item] : value.items()) members.emplace_back(name, &item);
       std::sort(members.begin(), members.end());
-      add_tag(hasher, 'o');
-      add_u64(hasher, members.size());
+      add_tag(bytes, 'o');
+      add_u64(bytes, members.size());
       for (const auto& [name, item] : members) {
-        add_text(hasher, name);
-        add_value(hasher, *item);
+        add_text(bytes, name);
+        add_value(bytes, *item);
       }
       break;
     }
@@ -161,22 +159,101 @@ Json body_manifest(const Dag& body, Store& store) {
   return {{"nodes", std::move(nodes)}, {"states", std::move(states)}};
 }
 
+std::string json_string(std::string_view text) {
+  const bool plain = std::all_of(text.begin(), text.end(),
+                                 [](char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\\'; });
+  return plain ? '"' + std::string(text) + '"' : Json(text).dump();
+}
+
 }  // namespace
 
+/// Writes a manifest and the bytes that are hashed for it at once, because a Json object of it would cost
+/// more than everything else that the engine does for a node. The manifest has its members in the order in
+/// which they are easiest to read, the bytes have them sorted.
 ActionKey action_key(const DagNode& node, const std::map<std::string, OutputEntry>& inputs,
                      std::uint64_t seed, Store& store) {
-  Json manifest = {{"format", key_format}};
-  manifest.update(node_manifest(node, store));
-  manifest["seed"] = node.decl->uses_seed ? Json(seed) : Json(nullptr);
-  Json ports = Json::object();
-  for (const auto& [port, entry] : inputs) {
-    ports[port] = {{"type", entry.type}, {"version", entry.type_version}, {"digest", entry.digest.hex()}};
+  const NodeDeclaration& decl = *node.decl;
+  std::vector<std::pair<std::string_view, Json>> params;
+  for (const ParamDecl& param : decl.params) {
+    if (param.hashed) params.emplace_back(param.name, key_value(param, node.params.at(param.name), store));
   }
-  manifest["inputs"] = std::move(ports);
+  const Json body = node.loop ? body_manifest(node.loop->body, store) : Json();
 
-  Hasher hasher;
-  add_value(hasher, manifest);
-  return {hasher.finish(), manifest.dump()};
+  std::string text = "{\"format\":" + std::to_string(key_format) + ",\"node\":" + json_string(decl.id) +
+                     ",\"version\":" + std::to_string(decl.version) + ",\"libraries\":{";
+  for (const auto& [name, version] : decl.libraries) {
+    text += (text.back() == '{' ? "" : ",") + json_string(name) + ":" + json_string(version);
+  }
+  text += "},\"params\":{";
+  for (const auto& [name, value] : params)
+    text += (text.back() == '{' ? "" : ",") + json_string(name) + ":" + value.dump();
+  text += "}";
+  if (node.loop) text += ",\"body\":" + body.dump();
+  text += ",\"seed\":" + (decl.uses_seed ? std::to_string(seed) : "null") + ",\"inputs\":{";
+  for (const auto& [port, entry] : inputs) {
+    text += (text.back() == '{' ? "" : ",") + json_string(port) + ":{\"type\":" + json_string(entry.type) +
+            ",\"version\":" + std::to_string(entry.type_version) + ",\"digest\":\"" + entry.digest.hex() +
+            "\"}";
+  }
+  text += "}}";
+
+  std::string bytes;
+  bytes.reserve(text.size() + 512);
+  const auto add_string = [&bytes](std::string_view value) {
+    add_tag(bytes, 's');
+    add_text(bytes, value);
+  };
+  const auto add_integer = [&bytes](std::uint64_t value) {
+    add_tag(bytes, 'i');
+    add_u64(bytes, value);
+  };
+  const auto add_object = [&bytes](std::size_t members) {
+    add_tag(bytes, 'o');
+    add_u64(bytes, members);
+  };
+  add_object(node.loop ? 8 : 7);
+  if (node.loop) {
+    add_text(bytes, "body");
+    add_value(bytes, body);
+  }
+  add_text(bytes, "format");
+  add_integer(key_format);
+  add_text(bytes, "inputs");
+  add_object(inputs.size());
+  for (const auto& [port, entry] : inputs) {
+    add_text(bytes, port);
+    add_object(3);
+    add_text(bytes, "digest");
+    add_string(entry.digest.hex());
+    add_text(bytes, "type");
+    add_string(entry.type);
+    add_text(bytes, "version");
+    add_integer(static_cast<std::uint64_t>(entry.type_version));
+  }
+  add_text(bytes, "libraries");
+  add_object(decl.libraries.size());
+  for (const auto& [name, version] : decl.libraries) {
+    add_text(bytes, name);
+    add_string(version);
+  }
+  add_text(bytes, "node");
+  add_string(decl.id);
+  add_text(bytes, "params");
+  add_object(params.size());
+  std::sort(params.begin(), params.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& [name, value] : params) {
+    add_text(bytes, name);
+    add_value(bytes, value);
+  }
+  add_text(bytes, "seed");
+  if (decl.uses_seed) {
+    add_integer(seed);
+  } else {
+    add_tag(bytes, 'n');
+  }
+  add_text(bytes, "version");
+  add_integer(static_cast<std::uint64_t>(decl.version));
+  return {sha256(bytes), std::move(text)};
 }
 
 std::vector<std::string> manifest_differences(const std::string& before, const std::string& now) {

@@ -58,6 +58,45 @@ class CpuMeter : public tbb::task_scheduler_observer {
   double total_ = 0;
 };
 
+/// Arenas and their meters, each used by one node at a time. They are kept for the next node: making one
+/// costs more than running a small node.
+class Arenas {
+ public:
+  struct Arena {
+    explicit Arena(unsigned count) : threads(count), arena(static_cast<int>(count)), meter(arena) {}
+    unsigned threads;
+    tbb::task_arena arena;
+    CpuMeter meter;
+  };
+
+  std::unique_ptr<Arena> take(unsigned threads) {
+    {
+      const std::lock_guard lock(mutex_);
+      for (std::unique_ptr<Arena>& free : free_) {
+        if (free->threads != threads) continue;
+        std::swap(free, free_.back());
+        std::unique_ptr<Arena> arena = std::move(free_.back());
+        free_.pop_back();
+        return arena;
+      }
+    }
+    return std::make_unique<Arena>(threads);
+  }
+  void give_back(std::unique_ptr<Arena> arena) {
+    const std::lock_guard lock(mutex_);
+    free_.push_back(std::move(arena));
+  }
+  /// Never destroyed: TBB's own threads may end later than static objects.
+  static Arenas& instance() {
+    static Arenas* const arenas = new Arenas;
+    return *arenas;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Arena>> free_;
+};
+
 /// An artifact as the boundary shows it; lives until the last reader lets go.
 struct InputView {
   ArtifactPtr artifact;
@@ -205,16 +244,16 @@ class Host {
 
 NodeRunOutcome run_in_arena(unsigned threads, const std::function<NodeRunOutcome()>& work) {
   const auto start = std::chrono::steady_clock::now();
-  tbb::task_arena arena(static_cast<int>(threads));
-  arena.initialize();
-  CpuMeter meter(arena);
+  std::unique_ptr<Arenas::Arena> place = Arenas::instance().take(threads);
+  const double cpu = place->meter.total();
   NodeRunOutcome outcome;
-  arena.execute([&] {
+  place->arena.execute([&] {
     outcome = work();
     for (const auto& [port, artifact] : outcome.outputs) artifact->digest();
   });
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  outcome.cpu_seconds = meter.total();
+  outcome.cpu_seconds = place->meter.total() - cpu;
+  Arenas::instance().give_back(std::move(place));
   return outcome;
 }
 

@@ -3,6 +3,7 @@
 
 #include "ballflow/gc.hpp"
 #include "ballflow/run.hpp"
+#include "forecast.hpp"
 #include "process_usage.hpp"
 
 namespace ballflow {
@@ -65,6 +66,42 @@ std::optional<ActionEntry> find_entry(Store& store, const NodeDeclaration& decl,
   return entry;
 }
 
+namespace {
+
+/// Fills in seconds and memory, from what is known or guessed about the sizes of the inputs.
+void guess(const Dag& dag, std::vector<NodePlan>& plans,
+           const std::vector<std::optional<ActionEntry>>& entries, Store& store, std::uint64_t seed) {
+  Past past(store);
+  std::vector<std::map<std::string, std::uint64_t>> bytes(dag.nodes.size());  // of outputs, by port
+  for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
+    const DagNode& node = dag.nodes[i];
+    NodePlan& plan = plans[i];
+    if (plan.verdict == NodePlan::Verdict::unneeded) continue;
+    std::uint64_t input_bytes = 0;
+    bool known = true;
+    for (const auto& [port, edge] : node.inputs) {
+      const auto size = bytes[edge.node].find(edge.port);
+      known = known && size != bytes[edge.node].end();
+      if (size != bytes[edge.node].end()) input_bytes += size->second;
+    }
+    plan.memory = node.decl->memory_fixed + static_cast<std::uint64_t>(node.decl->memory_per_input_byte *
+                                                                       static_cast<double>(input_bytes));
+    if (entries[i]) {
+      for (const OutputEntry& output : entries[i]->outputs) bytes[i][output.port] = output.bytes;
+      plan.seconds = entries[i]->seconds;
+      plan.seconds_from = "when it last ran";
+      continue;
+    }
+    auto guess = past.guess(action_key(node, {}, seed, store).manifest, known ? input_bytes : 0);
+    if (!guess) continue;
+    plan.seconds = guess->seconds;
+    plan.seconds_from = std::move(guess->from);
+    bytes[i] = std::move(guess->bytes);
+  }
+}
+
+}  // namespace
+
 std::vector<NodePlan> plan(const Dag& dag, Store& store, std::uint64_t seed, const Manifests& earlier) {
   using Verdict = NodePlan::Verdict;
   const std::size_t n = dag.nodes.size();
@@ -101,7 +138,6 @@ std::vector<NodePlan> plan(const Dag& dag, Store& store, std::uint64_t seed, con
     if (entries[i]) {
       plan.verdict = Verdict::hit;
       plan.reason = "same inputs and parameters";
-      plan.seconds = entries[i]->seconds;
       continue;
     }
     plan.verdict = Verdict::run;
@@ -134,6 +170,7 @@ std::vector<NodePlan> plan(const Dag& dag, Store& store, std::uint64_t seed, con
       break;
     }
   }
+  guess(dag, plans, entries, store, seed);
   return plans;
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 
 #include "ballflow/history.hpp"
@@ -20,16 +21,39 @@ int show_plan(const Common& common, const PlanArguments& arguments) {
   const auto store = common.store();
   const std::vector<NodePlan> plans =
       plan(dag, *store, arguments.seed, latest_manifests(*store, arguments.graph.file));
-  std::vector<std::vector<std::string>> rows = {{"node", "", "why"}};
+  std::vector<std::vector<std::string>> rows = {{"node", "", "seconds", "memory", "why"}};
+  double run_seconds = 0, maybe_seconds = 0, hit_seconds = 0;
+  std::uint64_t memory = 0;
+  std::size_t unknown = 0;
   for (std::size_t i = 0; i < plans.size(); ++i) {
     using Verdict = NodePlan::Verdict;
-    const char* verdict = plans[i].verdict == Verdict::hit     ? "HIT"
-                          : plans[i].verdict == Verdict::run   ? "RUN"
-                          : plans[i].verdict == Verdict::maybe ? "MAYBE"
-                                                               : "-";
-    rows.push_back({dag.nodes[i].path, verdict, plans[i].reason});
+    const NodePlan& plan = plans[i];
+    const double seconds = plan.seconds.value_or(0);
+    std::string verdict = "-", time, room, why = plan.reason;
+    if (plan.verdict == Verdict::hit) {
+      verdict = "HIT";
+      hit_seconds += seconds;
+    } else if (plan.verdict != Verdict::unneeded) {
+      const bool sure = plan.verdict == Verdict::run;
+      verdict = sure ? "RUN" : "MAYBE";
+      (sure ? run_seconds : maybe_seconds) += seconds;
+      time = plan.seconds ? "~" + duration(seconds) : "?";
+      if (plan.seconds) why += " [time: " + plan.seconds_from + "]";
+      if (!plan.seconds) ++unknown;
+      if (plan.memory != 0) room = grouped(static_cast<std::int64_t>(plan.memory >> 20)) + " MB";
+      memory = std::max(memory, plan.memory);
+    }
+    rows.push_back({dag.nodes[i].path, verdict, time, room, why});
   }
   print_table(rows);
+  std::string total = "~" + duration(run_seconds) + " to compute, perhaps ~" + duration(maybe_seconds) +
+                      " more; the cache saves " + duration(hit_seconds);
+  if (unknown != 0)
+    total += "; " + std::to_string(unknown) + (unknown == 1 ? " node" : " nodes") + " never ran";
+  if (memory != 0)
+    total +=
+        "; up to " + grouped(static_cast<std::int64_t>(memory >> 20)) + " MB for one node by its estimate";
+  std::printf("\n%s\n", total.c_str());
   return 0;
 }
 

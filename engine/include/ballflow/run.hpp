@@ -96,7 +96,12 @@ struct NodePlan {
   };  // maybe: an input will be computed anew and may turn out equal
   Verdict verdict = Verdict::run;
   std::string reason;
-  std::optional<double> seconds;  // what the node took when it last ran with this key
+  /// Of a hit what it took to make. Otherwise a guess: what the node took in another execution, preferably
+  /// with the same parameters and with inputs of about the size, times the ratio of the sizes of the inputs.
+  /// Empty when it never ran.
+  std::optional<double> seconds;
+  std::string seconds_from;  // where the guess comes from
+  std::uint64_t memory = 0;  // the node's own estimate, for inputs of the known or guessed size
 };
 std::vector<NodePlan> plan(const Dag& dag, Store& store, std::uint64_t seed, const Manifests& earlier);
 

@@ -275,6 +275,47 @@ TEST_F(OptionsTest, names_of_nodes_and_subgraphs_are_found_and_others_are_refuse
   }
 }
 
+/// source(count) -> slow
+Dag slow_chain(OptionsTest& test, double count) {
+  Dag dag;
+  const auto source = test.node(dag, "source", "Source", {}, {{"count", static_cast<std::int64_t>(count)}});
+  const auto slow = test.node(dag, "slow", "Slow", {{"numbers", {source, "numbers"}}}, {{"seconds", 0.05}});
+  dag.outputs.push_back({"numbers", "", {slow, "numbers"}});
+  return dag;
+}
+
+TEST_F(OptionsTest, plan_guesses_from_executions_with_the_same_parameters_scaled_by_the_size_of_the_inputs) {
+  const auto cache = store();
+  EXPECT_FALSE(plan(slow_chain(*this, 100), *cache, 0, {})[1].seconds) << "it never ran";
+  const RunResult small = run(slow_chain(*this, 100), cache);
+
+  const Dag large = slow_chain(*this, 1000);
+  const std::vector<NodePlan> unknown = plan(large, *cache, 0, {});
+  EXPECT_EQ(unknown[0].seconds_from, "other parameters");
+  EXPECT_EQ(unknown[1].verdict, NodePlan::Verdict::maybe);
+  EXPECT_EQ(unknown[1].seconds_from, "same parameters");
+  EXPECT_DOUBLE_EQ(unknown[1].seconds.value(), small.nodes[1].seconds);
+
+  RunOptions options;
+  options.until = {0};
+  const RunResult source = run_with(large, options, cache);
+  const std::vector<NodePlan> known = plan(large, *cache, 0, {});
+  EXPECT_EQ(known[0].verdict, NodePlan::Verdict::hit);
+  EXPECT_EQ(known[1].verdict, NodePlan::Verdict::run);
+  const double ratio = static_cast<double>(source.nodes[0].outputs[0].bytes) /
+                       static_cast<double>(small.nodes[0].outputs[0].bytes);
+  EXPECT_GT(ratio, 4);
+  EXPECT_DOUBLE_EQ(known[1].seconds.value(), small.nodes[1].seconds * ratio);
+  EXPECT_EQ(known[1].seconds_from.rfind("same parameters, scaled from ", 0), 0u) << known[1].seconds_from;
+}
+
+TEST_F(OptionsTest, plan_foretells_the_estimate_of_the_memory) {
+  Dag dag;
+  const auto heavy = node(dag, "heavy", "Heavy");
+  dag.outputs.push_back({"numbers", "", {heavy, "numbers"}});
+  EXPECT_EQ(plan(dag, *store(), 0, {})[0].memory, 60u);
+}
+
 TEST(Memory, budgets_are_sizes_or_shares) {
   EXPECT_EQ(parse_memory("4096"), 4096u);
   EXPECT_EQ(parse_memory("2G"), 2ull << 30);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <filesystem>
 
 #include "ballflow/history.hpp"
@@ -444,6 +445,40 @@ TEST_F(KeyTest, every_field_of_the_manifest_changes_the_key_and_is_named) {
   in.type = "Letters";
   expect_change(dag.nodes[0], in, 0, "inputs.a.type");
   expect_change(dag.nodes[0], input, 5, "seed");
+}
+
+/// The bytes that key.hpp promises for a manifest, from its text alone.
+std::string hashed_bytes(const nlohmann::json& value) {
+  const auto u64 = [](std::uint64_t n) {
+    std::string bytes;
+    for (int i = 0; i < 8; ++i, n >>= 8) bytes += static_cast<char>(n & 255);
+    return bytes;
+  };
+  if (value.is_null()) return "n";
+  if (value.is_boolean()) return value.get<bool>() ? "t" : "f";
+  if (value.is_number_integer()) return "i" + u64(static_cast<std::uint64_t>(value.get<std::int64_t>()));
+  if (value.is_number_float()) return "d" + u64(std::bit_cast<std::uint64_t>(value.get<double>() + 0.0));
+  if (value.is_string()) return "s" + u64(value.get<std::string>().size()) + value.get<std::string>();
+  std::string bytes = "o" + u64(value.size());
+  for (const auto& [name, member] : value.items()) bytes += u64(name.size()) + name + hashed_bytes(member);
+  return bytes;
+}
+
+TEST_F(KeyTest, the_key_is_the_hash_of_its_manifest) {
+  Dag dag = diamond(1.5, 2);
+  dag.nodes[0].params["value"] = -0.0;
+  std::map<std::string, OutputEntry> inputs;
+  inputs["b"] = {"sum", "Numbers", 3, sha256("b"), 10, {}, "{}"};
+  inputs["a"] = {"sum", "Numbers", 1, sha256("a"), 10, {}, "{}"};
+  NodeDeclaration strange = *dag.nodes[3].decl;
+  strange.uses_seed = true;
+  strange.libraries = {{"CGAL", "5.5 \"odd\" caf\xc3\xa9"}, {"A", "1"}};
+  dag.nodes[3].decl = &strange;
+  for (const DagNode& n : dag.nodes) {
+    const ActionKey made = action_key(n, inputs, 1234567890123456789u, *store());
+    EXPECT_EQ(made.key, sha256(hashed_bytes(nlohmann::json::parse(made.manifest)))) << made.manifest;
+    EXPECT_EQ(Json::parse(made.manifest).dump(), made.manifest);
+  }
 }
 
 TEST_F(KeyTest, minus_zero_is_zero_and_whole_numbers_equal_themselves) {

@@ -1,0 +1,77 @@
+#include "forecast.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <tuple>
+
+namespace ballflow {
+namespace {
+
+std::string megabytes(std::uint64_t bytes) {
+  char text[32];
+  const double value = static_cast<double>(bytes) / 1e6;
+  std::snprintf(text, sizeof text, value < 10 ? "%.2g MB" : "%.0f MB", value);
+  return text;
+}
+
+}  // namespace
+
+const std::vector<Past::Execution>& Past::executions_of(const std::string& node) {
+  if (!contents_) {
+    contents_ = read_contents(store_);
+    for (const CachedAction& action : contents_->actions) {
+      for (const OutputEntry& output : action.outputs) size_of_[output.digest.hex()] = output.bytes;
+    }
+  }
+  const auto [found, first] = executions_.try_emplace(node);
+  if (!first) return found->second;
+  for (const CachedAction& action : contents_->actions) {
+    if (action.node != node) continue;
+    const auto entry = store_.peek_action(action.key);
+    if (!entry) continue;
+    Execution execution{&action, Json::parse(entry->manifest, nullptr, false), 0};
+    if (!execution.manifest.is_object() || !execution.manifest.contains("inputs")) continue;
+    for (const auto& [port, input] : execution.manifest["inputs"].items()) {
+      const auto size = size_of_.find(input.value("digest", ""));
+      execution.input_bytes += size == size_of_.end() ? 0 : size->second;
+    }
+    found->second.push_back(std::move(execution));
+  }
+  return found->second;
+}
+
+std::optional<Past::Guess> Past::guess(const std::string& text, std::uint64_t input_bytes) {
+  const Json manifest = Json::parse(text, nullptr, false);
+  if (!manifest.is_object()) return std::nullopt;
+  const auto alike = [&manifest](const Execution& execution) {
+    return execution.manifest.value("params", Json()) == manifest.value("params", Json()) &&
+           execution.manifest.value("version", 0) == manifest.value("version", 0) &&
+           execution.manifest.value("body", Json()) == manifest.value("body", Json());
+  };
+  const auto distance = [input_bytes](const Execution& execution) {
+    if (input_bytes == 0 || execution.input_bytes == 0) return 1e9;
+    return std::abs(std::log(static_cast<double>(input_bytes) / static_cast<double>(execution.input_bytes)));
+  };
+  const Execution* best = nullptr;
+  for (const Execution& execution : executions_of(manifest.value("node", ""))) {
+    const auto rank = [&](const Execution& e) {
+      return std::tuple(!alike(e), distance(e), -e.action->last_use, e.action->key.hex());
+    };
+    if (best == nullptr || rank(execution) < rank(*best)) best = &execution;
+  }
+  if (best == nullptr) return std::nullopt;
+  const double ratio = input_bytes == 0 || best->input_bytes == 0
+                           ? 1
+                           : static_cast<double>(input_bytes) / static_cast<double>(best->input_bytes);
+  Guess guess;
+  guess.seconds = best->action->seconds * ratio;
+  guess.from = alike(*best) ? "same parameters" : "other parameters";
+  if (ratio != 1)
+    guess.from += ", scaled from " + megabytes(best->input_bytes) + " of input to " + megabytes(input_bytes);
+  for (const OutputEntry& output : best->action->outputs)
+    guess.bytes[output.port] = static_cast<std::uint64_t>(static_cast<double>(output.bytes) * ratio);
+  return guess;
+}
+
+}  // namespace ballflow

@@ -1,0 +1,42 @@
+// What executions of the past say about those to come.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ballflow/gc.hpp"
+#include "ballflow/node_decl.hpp"
+
+namespace ballflow {
+
+class Past {
+ public:
+  /// Reads the action entries of `store` when first asked.
+  explicit Past(Store& store) : store_(store) {}
+
+  struct Guess {
+    double seconds = 0;
+    std::string from;                            // "same parameters, 12 MB of input instead of 3 MB"
+    std::map<std::string, std::uint64_t> bytes;  // of the outputs, by port
+  };
+  /// A guess for the node with this key manifest (its inputs do not matter) and so many bytes of inputs (0:
+  /// not known).
+  std::optional<Guess> guess(const std::string& manifest, std::uint64_t input_bytes);
+
+ private:
+  struct Execution {
+    const CachedAction* action = nullptr;
+    Json manifest;
+    std::uint64_t input_bytes = 0;  // 0: not known
+  };
+  const std::vector<Execution>& executions_of(const std::string& node);
+
+  Store& store_;
+  std::optional<CacheContents> contents_;
+  std::map<std::string, std::uint64_t> size_of_;  // by digest
+  std::map<std::string, std::vector<Execution>> executions_;
+};
+
+}  // namespace ballflow
