@@ -6,7 +6,9 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstring>
 #include <mutex>
+#include <unordered_map>
 
 #include "ballflow/gc.hpp"
 #include "ballflow/run.hpp"
@@ -46,6 +48,13 @@ class Runner::Impl {
     std::uint64_t admitted = 0;          // bytes taken from the budget; guarded by mutex_
     bool waited = false;                 // for memory; guarded by mutex_
     std::atomic<std::int64_t> last_progress{0};
+  };
+  struct DigestHash {  // any 8 bytes of a digest are as good as random
+    std::size_t operator()(const Digest& digest) const {
+      std::size_t bits = 0;
+      std::memcpy(&bits, digest.bytes.data(), sizeof bits);
+      return bits;
+    }
   };
   struct Flight {
     std::size_t leader;
@@ -106,7 +115,7 @@ class Runner::Impl {
   tbb::task_group* group_ = nullptr;
   std::mutex mutex_, events_mutex_;
   std::set<std::size_t> force_;  // not yet computed; guarded by mutex_
-  std::map<Digest, Flight> flights_;
+  std::unordered_map<Digest, Flight, DigestHash> flights_;
   std::vector<std::size_t> deferred_;
   std::map<Digest, ActionEntry> replaced_;      // of nodes that turned out not to be deterministic
   std::set<std::size_t> nondeterministic_;      // guarded by mutex_
