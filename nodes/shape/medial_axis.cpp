@@ -18,8 +18,11 @@
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Exact_rational.h>
+#include <CGAL/Spatial_sort_traits_adapter_3.h>
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
+#include <CGAL/property_map.h>
+#include <CGAL/spatial_sort.h>
 
 #include <algorithm>
 #include <array>
@@ -52,15 +55,27 @@ struct DelaunayCell {
 };
 
 /// Empty when the points lie in a plane.
-std::vector<DelaunayCell> delaunay_cells(const std::vector<Vec3>& points) {
+std::vector<DelaunayCell> delaunay_cells(const std::vector<Vec3>& points, Monitor& monitor) {
   using Vertex = CGAL::Triangulation_vertex_base_with_info_3<std::int32_t, Kernel>;
   using Cell = CGAL::Triangulation_cell_base_with_info_3<std::int32_t, Kernel>;
   using Triangulation =
       CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<Vertex, Cell>>;
-  std::vector<std::pair<Kernel::Point_3, std::int32_t>> sites;
+  std::vector<Kernel::Point_3> sites;
   sites.reserve(points.size());
-  for (const Vec3& p : points) sites.emplace_back(point(p), static_cast<std::int32_t>(sites.size()));
-  Triangulation triangulation(sites.begin(), sites.end());
+  for (const Vec3& p : points) sites.push_back(point(p));
+  std::vector<std::size_t> order(sites.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  using SiteMap = CGAL::Pointer_property_map<Kernel::Point_3>::type;
+  CGAL::spatial_sort(order.begin(), order.end(),
+                     CGAL::Spatial_sort_traits_adapter_3<Kernel, SiteMap>(CGAL::make_property_map(sites)));
+  Triangulation triangulation;
+  Triangulation::Cell_handle hint;
+  for (std::size_t i = 0; i < order.size(); ++i) {  // one by one, to look at the monitor in between
+    if (i % 512 == 0) monitor.step(static_cast<double>(i) / static_cast<double>(order.size()));
+    const auto vertex = triangulation.insert(sites[order[i]], hint);
+    vertex->info() = static_cast<std::int32_t>(order[i]);
+    hint = vertex->cell();
+  }
   if (triangulation.dimension() < 3) return {};
 
   struct Entry {
@@ -78,8 +93,10 @@ std::vector<DelaunayCell> delaunay_cells(const std::vector<Vec3>& points) {
     for (std::size_t k = 0; k < 4; ++k) entry.corners[k] = name(entry.place[k]);
     entries.push_back(entry);
   }
+  monitor.step(0.9);
   std::sort(entries.begin(), entries.end(),
             [](const Entry& a, const Entry& b) { return a.corners < b.corners; });
+  monitor.step(0.95);
   for (std::size_t i = 0; i < entries.size(); ++i) entries[i].cell->info() = static_cast<std::int32_t>(i);
   std::vector<DelaunayCell> cells;
   cells.reserve(entries.size());
@@ -310,9 +327,9 @@ void Axis::add_regular_part() {
   }
   size_ = box.longest_edge();
   same_ = std::ldexp(size_, -36);
-  sites_ = union_vertices(complex_, std::ldexp(size_, -40));
-  monitor_.step(0.1);
-  cells_ = delaunay_cells(sites_.points);
+  PartMonitor first(monitor_, 0, 0.1), second(monitor_, 0.1, 0.5);
+  sites_ = union_vertices(complex_, std::ldexp(size_, -40), first);
+  cells_ = delaunay_cells(sites_.points, second);
   monitor_.step(0.5);
   place_cells();
   add_facets();
@@ -538,9 +555,11 @@ MedialAxis Axis::finish() {
     std::rotate(p.begin(), std::min_element(p.begin(), p.end()), p.end());
     if (p.back() < p[1]) std::reverse(p.begin() + 1, p.end());
   }
+  monitor_.step(0.93);
   std::sort(pieces_.begin(), pieces_.end(), [](const Piece& a, const Piece& b) {
     return a.corners != b.corners ? a.corners < b.corners : a.kind < b.kind;
   });
+  monitor_.step(0.96);
   for (auto& edge : edges_) edge = {index[at(edge[0])], index[at(edge[1])]};
 
   std::vector<std::int64_t> offsets{0};

@@ -85,11 +85,14 @@ struct Named {
   bool regular;
 };
 
-std::vector<Named> exposed_sides(const SimplicialComplex& complex) {
+std::vector<Named> exposed_sides(const SimplicialComplex& complex, Monitor& monitor) {
   const std::size_t n = complex.triangles.size();
   std::vector<std::array<bool, 2>> filled(n, {false, false});  // a tetrahedron lies on side -1, +1
   const auto& all = complex.triangles;
+  const double total = static_cast<double>(complex.tetrahedra.size());
+  std::size_t done = 0;
   for (const auto& t : complex.tetrahedra) {
+    if (done++ % 4096 == 0) monitor.step(0.4 * static_cast<double>(done) / total);
     for (std::size_t skip = 0; skip < 4; ++skip) {
       std::array<std::int32_t, 3> face{};
       for (std::size_t k = 0, m = 0; k < 4; ++k) {
@@ -167,11 +170,13 @@ class Chains {
 
 }  // namespace
 
-UnionVertices union_vertices(const SimplicialComplex& complex, double merge_distance) {
-  const std::vector<Named> named = exposed_sides(complex);
+UnionVertices union_vertices(const SimplicialComplex& complex, double merge_distance, Monitor& monitor) {
+  const std::vector<Named> named = exposed_sides(complex, monitor);
   std::vector<Vec3> points;
   points.reserve(named.size());
   for (const Named& v : named) {
+    if (points.size() % 4096 == 0)
+      monitor.step(0.4 + 0.4 * static_cast<double>(points.size()) / static_cast<double>(named.size()));
     points.push_back(vertex_of(complex, complex.triangles[static_cast<std::size_t>(v.triangle)], v.side));
   }
   Chains chains(points, merge_distance);
@@ -180,7 +185,9 @@ UnionVertices union_vertices(const SimplicialComplex& complex, double merge_dist
   for (std::size_t i = 0; i < named.size(); ++i) {
     members.emplace_back(chains.root(static_cast<std::int32_t>(i)), static_cast<std::int32_t>(i));
   }
+  monitor.step(0.9);
   std::sort(members.begin(), members.end());
+  monitor.step(0.95);
 
   UnionVertices out;
   std::vector<std::int32_t> balls;

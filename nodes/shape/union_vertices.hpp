@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "types/monitor.hpp"
 #include "types/simplicial_complex.hpp"
 #include "types/vec3.hpp"
 
@@ -49,6 +50,7 @@ struct UnionVertices {
 
 /// Vertices closer than `merge_distance` (model units) to each other, in a chain, become one. The complex
 /// must hold its invariants (see broken_invariant) and its tetrahedra must not be flat.
-UnionVertices union_vertices(const SimplicialComplex& complex, double merge_distance);
+UnionVertices union_vertices(const SimplicialComplex& complex, double merge_distance,
+                             Monitor& monitor = no_monitor());
 
 }  // namespace ballflow::geometry

@@ -1,0 +1,286 @@
+// Every registered node looks often enough whether its result is still wanted, and ends soon when it is not.
+//
+// A host of its own runs the nodes of all graphs across the plugin boundary and takes the time between two
+// looks at bf_run::cancelled, and from a cancellation to the end. It is CPU time of the process, so that a
+// busy machine does not matter. BALLFLOW_TEST_SAMPLES=1000000 makes the models large (tools/nightly): then a
+// second is the limit that a user meets.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <set>
+
+#include "ballflow/graph.hpp"
+#include "ballflow/registry.hpp"
+#include "test_data.hpp"
+
+namespace ballflow {
+namespace {
+
+using Artifacts = std::map<std::string, ArtifactPtr>;  // by port
+
+double cpu_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+/// One execution of one node.
+class Execution {
+ public:
+  /// Cancels at look number `cancel_at`; 0: never.
+  Execution(const DagNode& node, Artifacts inputs, std::int64_t cancel_at = 0)
+      : node_(node), inputs_(std::move(inputs)), cancel_at_(cancel_at) {
+    Json params = Json::object();
+    for (const ParamDecl& param : node.decl->params) params[param.name] = node.params.at(param.name);
+    const std::string text = params.dump();
+    for (const auto& [port, artifact] : inputs_) {
+      for (const NamedArray& array : artifact->arrays()) {
+        bf_array view{};
+        view.name = {array.name.data(), array.name.size()};
+        view.dtype = array.dtype;
+        view.rank = static_cast<std::uint32_t>(array.shape.size());
+        std::copy(array.shape.begin(), array.shape.end(), view.shape);
+        view.data = array.data;
+        views_[port].push_back(view);
+      }
+    }
+    bf_run run{};
+    run.struct_size = sizeof run;
+    run.max_threads = 2;
+    run.params = {text.data(), text.size()};
+    run.self = this;
+    run.cancelled = [](void* self) -> int { return of(self).look() ? 1 : 0; };
+    run.progress = [](void*, double) {};
+    run.log = [](void*, std::uint32_t, bf_bytes) {};
+    run.input = [](void* self, bf_bytes port, bf_artifact* artifact) -> int {
+      const auto found = of(self).views_.find(std::string(port.data, port.size));
+      if (found == of(self).views_.end()) return 0;
+      *artifact = {found->second.data(), found->second.size(), nullptr, [](void*) {}, [](void*) {}};
+      return 1;
+    };
+    run.output = [](void* self, bf_bytes port, const bf_array* arrays, std::uint64_t count,
+                    bf_bytes summary) -> int {
+      of(self).keep(std::string(port.data, port.size), arrays, count, {summary.data, summary.size});
+      return 0;
+    };
+    run.fail = [](void* self, bf_bytes why, bf_bytes) { of(self).cause.assign(why.data, why.size); };
+    last_ = cpu_seconds();
+    status = node.decl->entry->run(&run);
+    const double end = cpu_seconds();
+    longest = std::max(longest, end - last_);
+    if (cancelled_at_ >= 0) latency = end - cancelled_at_;
+  }
+  Execution(const Execution&) = delete;
+  Execution& operator=(const Execution&) = delete;
+
+  int status = BF_FAILED;
+  std::string cause;
+  Artifacts outputs;
+  std::int64_t looks = 0;
+  double longest = 0;  // between two looks, from the start to the first, or from the last to the end
+  double latency = 0;  // from the cancellation to the end
+
+ private:
+  static Execution& of(void* self) { return *static_cast<Execution*>(self); }
+
+  bool look() {
+    const std::lock_guard lock(mutex_);
+    const double now = cpu_seconds();
+    longest = std::max(longest, now - last_);
+    last_ = now;
+    if (++looks == cancel_at_) cancelled_at_ = now;
+    return cancelled_at_ >= 0;
+  }
+
+  void keep(const std::string& port, const bf_array* arrays, std::uint64_t count, std::string_view summary) {
+    struct Owner {
+      std::vector<bf_array> arrays;
+      Artifacts inputs;  // an output may share their arrays
+      ~Owner() {
+        for (const bf_array& array : arrays) array.release(array.owner);
+      }
+    };
+    const auto owner = std::make_shared<Owner>();
+    owner->arrays.assign(arrays, arrays + count);
+    owner->inputs = inputs_;
+    std::vector<NamedArray> named;
+    for (const bf_array& array : owner->arrays) {
+      named.push_back({{array.name.data, static_cast<std::size_t>(array.name.size)},
+                       array.dtype,
+                       {array.shape, array.shape + array.rank},
+                       array.data});
+    }
+    const PortDecl* decl = node_.decl->output(port);
+    outputs[port] = Artifact::seal(decl->type, decl->type_version, std::move(named), summary, owner);
+  }
+
+  const DagNode& node_;
+  const Artifacts inputs_;
+  const std::int64_t cancel_at_;
+  std::map<std::string, std::vector<bf_array>> views_;
+  std::mutex mutex_;
+  double last_ = 0, cancelled_at_ = -1;
+};
+
+std::size_t samples() {
+  const char* const variable = std::getenv("BALLFLOW_TEST_SAMPLES");
+  return variable == nullptr ? 20000 : std::stoul(variable);
+}
+
+/// CPU seconds.
+double limit() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  constexpr double slower = 10;
+#else
+  constexpr double slower = 1;
+#endif
+  return samples() > 200000 ? 1.0 : 0.12 * slower;
+}
+
+class Cancellation : public testing::Test {
+ protected:
+  static const Registry& registry() {
+    static const auto instance = Registry::load();
+    return *instance;
+  }
+
+  /// The state of a loop when it no longer changes.
+  Artifacts repeat(const Loop& loop, Artifacts state) {
+    for (int iteration = 0; iteration < 1000 && !HasFatalFailure(); ++iteration) {
+      bool changed = false;
+      for (auto& [name, artifact] : examine(loop.body, state)) {
+        changed = changed || artifact->digest() != state[name]->digest();
+        state[name] = artifact;
+      }
+      if (!changed) break;
+    }
+    return state;
+  }
+
+  /// Runs all nodes; returns the outputs of `dag`.
+  Artifacts examine(const Dag& dag, const Artifacts& from_outside) {
+    std::vector<Artifacts> made(dag.nodes.size());
+    const auto artifact = [&](const EdgeRef& edge) {
+      const Artifacts& all = edge.node == loop_input ? from_outside : made[edge.node];
+      const auto found = all.find(edge.port);
+      return found == all.end() ? nullptr : found->second;
+    };
+    for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
+      const DagNode& node = dag.nodes[i];
+      Artifacts inputs;
+      for (const auto& [port, edge] : node.inputs) {
+        if (ArtifactPtr input = artifact(edge)) inputs[port] = std::move(input);
+      }
+      made[i] = node.loop ? repeat(*node.loop, inputs) : examine(node, inputs);
+      if (HasFatalFailure()) return {};
+    }
+    Artifacts outputs;
+    for (const DagOutput& output : dag.outputs) outputs[output.name] = artifact(output.from);
+    return outputs;
+  }
+
+  Artifacts examine(const DagNode& node, const Artifacts& inputs) {
+    Execution whole(node, inputs);
+    EXPECT_EQ(whole.status, BF_OK) << node.path << ": " << whole.cause;
+    if (whole.status != BF_OK) return {};
+    EXPECT_LE(whole.longest, limit()) << node.path << " (" << node.decl->id << ") does not look for so long";
+    double& longest = longest_[node.decl->id];
+    longest = std::max(longest, whole.longest);
+    if (seen_.insert(node.decl->id).second) {
+      for (const double moment : {0.02, 0.3, 0.6, 0.95}) {
+        const auto at = static_cast<std::int64_t>(moment * static_cast<double>(whole.looks)) + 1;
+        if (at > whole.looks) continue;
+        const Execution cut(node, inputs, at);
+        // Its last looks may come when nothing is left to be done.
+        EXPECT_TRUE(cut.status == BF_CANCELLED || moment > 0.9) << node.path << " at look " << at;
+        EXPECT_LE(cut.latency, limit())
+            << node.path << " (" << node.decl->id << ") at look " << at << " of " << whole.looks;
+        longest = std::max(longest, cut.latency);
+      }
+    }
+    return std::move(whole.outputs);
+  }
+
+  std::set<std::string> seen_;
+  std::map<std::string, double> longest_;  // seconds, by node id
+};
+
+TEST_F(Cancellation, every_node_ends_soon_after_it_was_cancelled_at_any_moment) {
+  const std::string model = "shape:torus?n=" + std::to_string(samples());
+  std::vector<std::pair<std::string, std::vector<Override>>> runs;
+  for (const auto& entry : std::filesystem::directory_iterator(test::source_file("graphs"))) {
+    if (entry.path().extension() != ".json") continue;
+    const std::string file = entry.path().string();
+    const Dag dag = load_graph(file, registry());
+    std::vector<Override> overrides;
+    if (dag.params.count("input") != 0) overrides.push_back({"input", model});
+    if (dag.params.count("strategy") == 0) {
+      runs.emplace_back(file, overrides);
+      continue;
+    }
+    for (const auto& strategy : std::filesystem::directory_iterator(test::source_file("graphs/strategies"))) {
+      if (strategy.path().extension() != ".json") continue;
+      runs.emplace_back(file, overrides);
+      runs.back().second.push_back({"strategy", strategy.path().stem().string()});
+    }
+  }
+  std::sort(runs.begin(), runs.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& [file, overrides] : runs) {
+    SCOPED_TRACE(file + (overrides.empty() ? "" : " " + overrides.back().value));
+    examine(load_graph(file, registry(), overrides), {});
+    if (HasFatalFailure()) return;
+  }
+  for (const auto& [id, node] : registry().nodes()) EXPECT_EQ(seen_.count(id), 1u) << id << " did not run";
+  for (const auto& [id, seconds] : longest_) std::printf("%-16s %6.3f s\n", id.c_str(), seconds);
+}
+
+TEST_F(Cancellation, reading_a_large_file_ends_soon) {
+  const test::TempFolder folder;
+  const auto side = static_cast<std::size_t>(std::sqrt(static_cast<double>(4 * samples())));
+  std::string points, corners;
+  for (std::size_t i = 0; i < side * side; ++i) {
+    const std::size_t x = i % side, y = i / side;
+    const std::string line =
+        std::to_string(x) + ".25 " + std::to_string(y) + ".5 " + std::to_string((x * y) % 7) + "\n";
+    points += line;
+    corners += "v " + line;
+  }
+  std::string faces, numbered;
+  for (std::size_t y = 0; y + 1 < side; ++y) {
+    for (std::size_t x = 0; x + 1 < side; ++x) {
+      const std::size_t a = y * side + x;
+      faces += "3 " + std::to_string(a) + ' ' + std::to_string(a + 1) + ' ' + std::to_string(a + side) + '\n';
+      numbered += "f " + std::to_string(a + 1) + ' ' + std::to_string(a + 2) + ' ' +
+                  std::to_string(a + side + 1) + '\n';
+    }
+  }
+  const std::string vertices = std::to_string(side * side),
+                    triangle_count = std::to_string((side - 1) * (side - 1));
+  test::write_file(folder.file("a.xyz"), points);
+  test::write_file(folder.file("a.obj"), corners + numbered);
+  test::write_file(folder.file("a.off"), "OFF\n" + vertices + ' ' + triangle_count + " 0\n" + points + faces);
+  test::write_file(folder.file("a.ply"),
+                   "ply\nformat ascii 1.0\nelement vertex " + vertices +
+                       "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
+                       triangle_count + "\nproperty list uchar int vertex_indices\nend_header\n" + points +
+                       faces);
+  for (const char* name : {"a.xyz", "a.obj", "a.off", "a.ply"}) {
+    SCOPED_TRACE(name);
+    seen_.clear();
+    const Dag dag =
+        parse_graph(R"({"doc": "Reads.", "nodes": {"read": {"type": "Sample", "params": {"file": ")" +
+                        folder.file(name) + R"("}}}, "outputs": {"points": "read.points"}})",
+                    "read.json", registry());
+    examine(dag, {});
+    std::printf("%-16s %6.3f s\n", name, longest_["Sample"]);
+    longest_.clear();
+  }
+}
+
+}  // namespace
+}  // namespace ballflow
