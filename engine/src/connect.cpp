@@ -477,6 +477,7 @@ class Connector {
                     "/nodes/" + json_text::escape_pointer(file.nodes[leaf.node].name)};
     }
     add_outputs(dag, 0, place);
+    add_interfaces(dag, place);
     for (std::size_t i = expansion_.loops.size(); i-- > 0;)  // inner loops first
       finish(*expansion_.loops[i].loop, expansion_.loops[i].scope, place);
     return dag;
@@ -489,6 +490,19 @@ class Connector {
         dag.outputs.push_back({output.name, output.doc, {place[target.leaf], target.port}});
       if (target.kind == Target::Kind::loop_input)
         dag.outputs.push_back({output.name, output.doc, {loop_input, target.port}});
+    }
+  }
+
+  void add_interfaces(Dag& dag, const std::vector<std::size_t>& place) {
+    for (std::size_t scope = 1; scope < expansion_.scopes.size(); ++scope) {
+      if (expansion_.scopes[scope].loop != nowhere) continue;
+      for (const GraphOutput& output : file_of(scope).outputs) {
+        const Target target = resolve(scope, &output.from);
+        if (target.kind != Target::Kind::leaf) continue;
+        dag.interfaces.push_back({expansion_.scopes[scope].path + "." + output.name,
+                                  output.doc,
+                                  {place[target.leaf], target.port}});
+      }
     }
   }
 

@@ -59,7 +59,7 @@ NodeStatus Runner::Impl::compute(std::size_t i) {
   State& state = *states_[i];
   NodeResult& result = result_.nodes[i];
   const NodeRunOutcome outcome = execute(i, options_.threads);
-  result.seconds = outcome.seconds;
+  result.seconds = result.cost_seconds = outcome.seconds;
   result.cpu_seconds = outcome.cpu_seconds;
   result.warnings = outcome.warnings;
   result.iterations = outcome.iterations;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <set>
 #include <utility>
 
 #include "quote.hpp"
@@ -24,51 +23,36 @@ std::string canonical(const std::string& path) {
   return error ? path : result.string();
 }
 
-/// Overrides by "path.param" (".param" at the top), with a note which of them found their parameter.
-class Overrides {
+/// Settings by "path.param" (".param" at the top), with a note which of them found their parameter.
+class Settings {
  public:
-  explicit Overrides(const std::vector<Override>& overrides)
-      : all_(overrides), used_(overrides.size(), false) {
-    for (std::size_t i = 0; i < all_.size(); ++i) by_name_[target(all_[i].name)].push_back(i);
+  explicit Settings(const std::vector<const Setting*>& settings)
+      : all_(settings), used_(settings.size(), false) {
+    for (std::size_t i = 0; i < all_.size(); ++i) by_name_[setting_target(all_[i]->name)].push_back(i);
   }
 
-  static std::string target(const std::string& name) {
-    std::string path = name;
-    std::replace(path.begin(), path.end(), '.', '/');
-    const std::size_t last = path.rfind('/');
-    return last == std::string::npos ? "." + path : path.substr(0, last) + "." + path.substr(last + 1);
-  }
-
-  /// The override of a parameter, if there is one; the last wins.
-  const Override* find(const std::string& path, const std::string& param) {
+  /// The setting of a parameter, if there is one; the last wins.
+  const Setting* find(const std::string& path, const std::string& param) {
     if (all_.empty()) return nullptr;
     const auto found = by_name_.find(path + "." + param);
     if (found == by_name_.end()) return nullptr;
     for (const std::size_t i : found->second) used_[i] = true;
-    return &all_[found->second.back()];
+    return all_[found->second.back()];
   }
 
-  std::vector<const Override*> unused() const {
-    std::vector<const Override*> result;
+  std::vector<const Setting*> unused() const {
+    std::vector<const Setting*> result;
     for (std::size_t i = 0; i < all_.size(); ++i) {
-      if (!used_[i]) result.push_back(&all_[i]);
+      if (!used_[i]) result.push_back(all_[i]);
     }
     return result;
   }
 
  private:
-  const std::vector<Override>& all_;
+  const std::vector<const Setting*>& all_;
   std::map<std::string, std::vector<std::size_t>> by_name_;
   std::vector<bool> used_;
 };
-
-Diagnostic about_override(const Override& override_, std::string message, std::string hint) {
-  Diagnostic found;
-  found.file = printable("--set " + override_.name + "=" + override_.value);
-  found.message = std::move(message);
-  found.hint = std::move(hint);
-  return found;
-}
 
 std::vector<std::string> choice_names(const ParamDecl& param) {
   std::vector<std::string> names;
@@ -87,22 +71,18 @@ std::string param_hint(const ParamDecl& param, const Json& value) {
 
 class Expander {
  public:
-  Expander(const Registry& registry, const std::vector<Override>& overrides, Expansion& expansion,
-           Findings& findings)
-      : registry_(registry), overrides_(overrides), expansion_(expansion), findings_(findings) {
+  Expander(GraphFiles& files, const Registry& registry, const std::vector<const Setting*>& settings,
+           Expansion& expansion, Findings& findings)
+      : files_(files), registry_(registry), settings_(settings), expansion_(expansion), findings_(findings) {
     for (const auto& [id, node] : registry.nodes()) type_names_.push_back(id);
   }
 
-  void run(std::unique_ptr<GraphFile> top) {
-    const std::string name = top->source.file();
-    const GraphFile& file = *top;
-    const std::string key = canonical(name);
-    expansion_.files[key] = std::move(top);
-    chain_.push_back({key, name});
+  void run(const GraphFile& file) {
+    chain_.push_back({canonical(file.source.file()), file.source.file()});
     std::vector<std::optional<Json>> params;
     for (const GraphParam& param : file.params) {
-      if (const Override* override_ = overrides_.find("", param.decl.name)) {
-        params.push_back(param.broken ? std::nullopt : value_of(*override_, param.decl));
+      if (const Setting* setting = settings_.find("", param.decl.name)) {
+        params.push_back(param.broken ? std::nullopt : value_of(*setting, param.decl));
       } else if (param.broken) {
         params.push_back(std::nullopt);
       } else if (param.decl.required) {
@@ -114,7 +94,7 @@ class Expander {
       }
     }
     instantiate(file, nowhere, nowhere, "", std::move(params));
-    report_unused_overrides();
+    report_unused_settings();
   }
 
  private:
@@ -122,34 +102,35 @@ class Expander {
     std::string key, name;
   };
 
-  std::optional<Json> value_of(const Override& override_, const ParamDecl& param) {
+  std::optional<Json> value_of(const Setting& setting, const ParamDecl& param) {
     Json value;
-    if (!is_utf8(override_.value)) {
-      findings_.add(about_override(override_, in_quotes(param.name) + " must be UTF-8",
-                                   "rename the file, or set a link to it with a name in UTF-8"));
+    if (setting.value) {
+      value = *setting.value;
+    } else if (!is_utf8(setting.text)) {
+      findings_.add(about_setting(setting, in_quotes(param.name) + " must be UTF-8",
+                                  "rename the file, or set a link to it with a name in UTF-8"));
       return std::nullopt;
-    }
-    if (!from_text(param, override_.value, value)) {
+    } else if (!from_text(param, setting.text, value)) {
       const char* wanted = param.kind == ParamKind::boolean   ? "true or false"
                            : param.kind == ParamKind::integer ? "a whole number of 64 bits"
                                                               : "a finite number";
-      findings_.add(about_override(
-          override_, in_quotes(param.name) + " must be " + wanted + ", is " + in_quotes(override_.value),
+      findings_.add(about_setting(
+          setting, in_quotes(param.name) + " must be " + wanted + ", is " + in_quotes(setting.text),
           param_hint(param, value)));
       return std::nullopt;
     }
     if (std::string why = param.refuse(value); !why.empty()) {
-      findings_.add(about_override(override_, in_quotes(param.name) + " " + why, param_hint(param, value)));
+      findings_.add(about_setting(setting, in_quotes(param.name) + " " + why, param_hint(param, value)));
       return std::nullopt;
     }
     return normalised(param, value);
   }
 
-  /// The value written for `param` at a node, or from an override. Nothing when absent or wrong.
+  /// The value written for `param` at a node, or from a setting. Nothing when absent or wrong.
   std::optional<Json> given_value(const Scope& scope, const GraphNode::Param* written,
                                   const std::string& path, const ParamDecl& param, bool& given) {
     given = true;
-    if (const Override* override_ = overrides_.find(path, param.name)) return value_of(*override_, param);
+    if (const Setting* setting = settings_.find(path, param.name)) return value_of(*setting, param);
     given = written != nullptr;
     if (!given) return std::nullopt;
     const std::optional<Json> value = written->value.evaluate(scope.params);
@@ -260,7 +241,7 @@ class Expander {
     for (const GraphParam& param : file->params) {
       known.push_back(param.decl.name);
       if (param.broken) {
-        overrides_.find(path, param.decl.name);
+        settings_.find(path, param.decl.name);
         params.push_back(std::nullopt);
         continue;
       }
@@ -415,8 +396,8 @@ class Expander {
     const GraphNode::Param* const written = node.setting("until");
     for (UntilProblem& problem : problems) {
       problem.message = "\"until\": " + problem.message;
-      if (const Override* override_ = overrides_.find(path, "until")) {
-        findings_.add(about_override(*override_, std::move(problem.message), std::move(problem.hint)));
+      if (const Setting* setting = settings_.find(path, "until")) {
+        findings_.add(about_setting(*setting, std::move(problem.message), std::move(problem.hint)));
         continue;
       }
       // Inside the text when it stands in the file as it is, without escapes and parameters.
@@ -432,7 +413,7 @@ class Expander {
   /// The file that `includer` names, read at most once; null when it cannot be used.
   const GraphFile* load(const GraphFile& includer, Offset offset, const std::string& name, std::string& key) {
     const fs::path path = (fs::path(includer.source.file()).parent_path() / name).lexically_normal();
-    const auto [memo, fresh] = canonical_.try_emplace(path.string());
+    const auto [memo, fresh] = files_.canonical.try_emplace(path.string());
     if (fresh) memo->second = canonical(path.string());
     key = memo->second;
     std::string cycle;
@@ -451,15 +432,13 @@ class Expander {
                       "subgraphs are nested deeper than " + std::to_string(max_subgraph_depth) + " levels");
       return nullptr;
     }
-    if (const auto known = expansion_.files.find(key); known != expansion_.files.end()) {
+    if (const auto known = files_.by_path.find(key); known != files_.by_path.end())
       return known->second.get();
-    }
     std::error_code error;
     if (name.find('\0') != std::string::npos || !fs::is_regular_file(path, error)) {
       findings_.error(includer, offset, "no subgraph file " + in_quotes(path.string()), neighbours(path));
       return nullptr;
     }
-    if (unreadable_.contains(key)) return nullptr;
     std::string text;
     try {
       text = read_text_file(path.string());
@@ -467,14 +446,15 @@ class Expander {
       findings_.error(includer, offset, problem.what(), problem.hint());
       return nullptr;
     }
-    expansion_.file_names.push_back(path.string());
+    files_.names.push_back(path.string());
     std::unique_ptr<GraphFile> file =
-        read_graph_file(json_text::Source(path.string(), std::move(text)), findings_);
-    if (file == nullptr) {
-      unreadable_.insert(key);
-      return nullptr;
+        read_graph_file(json_text::Source(path.string(), std::move(text)), files_.findings);
+    if (file != nullptr && (file->sweep || !file->maps.empty())) {
+      const Offset section = file->sweep ? file->sweep->offset : file->maps.front().offset;
+      files_.findings.warning(*file, section, "the sweep of a subgraph is not run",
+                              "only the top graph's counts; sweep over its parameters there");
     }
-    return (expansion_.files[key] = std::move(file)).get();
+    return (files_.by_path[key] = std::move(file)).get();
   }
 
   /// Which graph files there are where one was looked for.
@@ -494,8 +474,8 @@ class Expander {
     return near + (near.empty() ? "" : " ") + "folder " + in_quotes(folder) + " has " + listed(names);
   }
 
-  void report_unused_overrides() {
-    const std::vector<const Override*> unused = overrides_.unused();
+  void report_unused_settings() {
+    const std::vector<const Setting*> unused = settings_.unused();
     if (unused.empty()) return;
     std::vector<std::string> known;
     for (const GraphParam& param : expansion_.scopes[0].file->params) known.push_back(param.decl.name);
@@ -508,8 +488,8 @@ class Expander {
       }
     }
     std::sort(known.begin(), known.end());
-    for (const Override* override_ : unused) {
-      const std::string target = Overrides::target(override_->name);
+    for (const Setting* setting : unused) {
+      const std::string target = setting_target(setting->name);
       const std::string path = target.substr(0, target.rfind('.'));
       const auto covers = [&](const std::string& broken) {
         return path == broken || path.starts_with(broken + "/");
@@ -520,20 +500,21 @@ class Expander {
       std::string hint = did_you_mean(name, known);
       if (hint.empty())
         hint = known.empty() ? "the graph has no parameters" : "parameters are " + listed(known, 20);
+      Setting about_name = *setting;
+      about_name.offset = setting->name_offset;
       findings_.add(
-          about_override(*override_, "the graph has no parameter " + in_quotes(name), std::move(hint)));
+          about_setting(about_name, "the graph has no parameter " + in_quotes(name), std::move(hint)));
     }
   }
 
+  GraphFiles& files_;
   const Registry& registry_;
-  Overrides overrides_;
+  Settings settings_;
   Expansion& expansion_;
   Findings& findings_;
   std::vector<std::string> type_names_;
   std::vector<ChainLink> chain_;
   std::vector<std::string> broken_paths_;
-  std::set<std::string> unreadable_;
-  std::map<std::string, std::string> canonical_;  // a file may be included a million times
   std::size_t instances_ = 0;
   std::size_t loop_ = nowhere;  // whose body is being instantiated
 };
@@ -564,10 +545,29 @@ const std::vector<ParamDecl>& loop_settings() {
   return settings;
 }
 
-void expand(std::unique_ptr<GraphFile> top, const Registry& registry, const std::vector<Override>& overrides,
-            Expansion& expansion, Findings& findings) {
+std::string setting_target(const std::string& name) {
+  std::string path = name;
+  std::replace(path.begin(), path.end(), '.', '/');
+  const std::size_t last = path.rfind('/');
+  return last == std::string::npos ? "." + path : path.substr(0, last) + "." + path.substr(last + 1);
+}
+
+Diagnostic about_setting(const Setting& setting, std::string message, std::string hint) {
+  if (setting.file != nullptr) {
+    return json_text::finding(setting.file->source, setting.file->root, setting.offset, std::move(message),
+                              std::move(hint));
+  }
+  Diagnostic found;
+  found.file = printable(setting.origin);
+  found.message = std::move(message);
+  found.hint = std::move(hint);
+  return found;
+}
+
+void expand(const GraphFile& top, GraphFiles& files, const Registry& registry,
+            const std::vector<const Setting*>& settings, Expansion& expansion, Findings& findings) {
   try {
-    Expander(registry, overrides, expansion, findings).run(std::move(top));
+    Expander(files, registry, settings, expansion, findings).run(top);
   } catch (const Abandoned&) {
     expansion.abandoned = true;
   }

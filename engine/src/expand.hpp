@@ -19,6 +19,30 @@ constexpr std::size_t max_subgraph_depth = 50;
 
 constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
 
+/// A value given from outside to a parameter: by --set, or by an axis of a sweep.
+struct Setting {
+  std::string name;                 // as in Override
+  std::string text;                 // from the command line
+  std::optional<Json> value;        // from the graph file; `text` is not looked at then
+  std::string origin;               // for messages: "--set epsilon=0.5"
+  const GraphFile* file = nullptr;  // where it was written, instead of `origin`
+  Offset offset = 0, name_offset = 0;
+};
+
+/// "epsilon" -> ".epsilon", "prune.greedy.mode" -> "prune/greedy.mode": equal names are the same parameter.
+std::string setting_target(const std::string& name);
+
+Diagnostic about_setting(const Setting& setting, std::string message, std::string hint);
+
+/// Graph files that were read, each once.
+struct GraphFiles {
+  explicit GraphFiles(Findings& found) : findings(found) {}
+  std::map<std::string, std::unique_ptr<GraphFile>> by_path;  // canonical; null where it could not be read
+  std::vector<std::string> names;                             // as in messages, in order of first reading
+  std::map<std::string, std::string> canonical;               // memo: a file may be included a million times
+  Findings& findings;                                         // about the files themselves
+};
+
 /// One inclusion of a graph file; scope 0 is the top graph.
 struct Scope {
   /// What a node of the file became: an index into leaves or scopes.
@@ -53,8 +77,6 @@ struct LoopBody {
 };
 
 struct Expansion {
-  std::map<std::string, std::unique_ptr<GraphFile>> files;  // by canonical path
-  std::vector<std::string> file_names;                      // as in messages, in order of first reading
   std::deque<Scope> scopes;
   std::vector<Leaf> leaves;
   std::vector<LoopBody> loops;
@@ -62,9 +84,9 @@ struct Expansion {
 };
 
 /// Reads included files, resolves parameters and checks them. Errors become findings; what depends on a
-/// reported error is left out silently.
-void expand(std::unique_ptr<GraphFile> top, const Registry& registry, const std::vector<Override>& overrides,
-            Expansion& expansion, Findings& findings);
+/// reported error is left out silently. Of several settings of a parameter the last counts.
+void expand(const GraphFile& top, GraphFiles& files, const Registry& registry,
+            const std::vector<const Setting*>& settings, Expansion& expansion, Findings& findings);
 
 /// Connects the leaves, checks ports, types and cycles, and puts the nodes into topological order.
 Dag connect(const Expansion& expansion, const Registry& registry, Findings& findings);

@@ -1,6 +1,7 @@
 #include "ballflow/graph.hpp"
 
 #include "expand.hpp"
+#include "sweep.hpp"
 
 namespace ballflow {
 
@@ -11,25 +12,114 @@ const DagNode* Dag::find(const std::string& path) const {
   return nullptr;
 }
 
+namespace {
+
+/// Findings of variants, each once, with a note of the first variant where it does not concern all.
+class VariantFindings {
+ public:
+  void add(const std::string& variant, std::vector<Diagnostic> found) {
+    ++variants_;
+    for (Diagnostic& finding : found) {
+      const std::string key = finding.file + '\0' + std::to_string(finding.line) + ':' +
+                              std::to_string(finding.column) + '\0' + finding.message;
+      Tally& tally = tallies_.try_emplace(key, Tally{std::move(finding), variant, 0}).first->second;
+      ++tally.count;
+    }
+  }
+  void move_to(Findings& findings) {
+    for (auto& [key, tally] : tallies_) {
+      if (tally.count < variants_) {
+        std::string& hint = tally.finding.hint;
+        hint += (hint.empty() ? "" : "; ") + std::string("in the variant ") + tally.variant;
+      }
+      findings.add(std::move(tally.finding));
+    }
+  }
+
+ private:
+  struct Tally {
+    Diagnostic finding;
+    std::string variant;
+    std::size_t count;
+  };
+  std::map<std::string, Tally> tallies_;
+  std::size_t variants_ = 0;
+};
+
+constexpr std::size_t enough_failures = 20;  // variants that are wrong before the others are not looked at
+
+Dag merge_variants(const GraphFile& top, GraphFiles& files, const Registry& registry,
+                   const std::vector<const Setting*>& sets, const Sweep& sweep, Findings& findings) {
+  VariantMerger merger(sweep);
+  VariantFindings all;
+  std::size_t failures = 0;
+  for (const Sweep::Choice& choice : sweep.variants) {
+    std::vector<const Setting*> settings = sets;
+    for (std::size_t axis = 0; axis < choice.size(); ++axis)
+      settings.push_back(&sweep.axes[axis].values[choice[axis]]);
+    Findings found(&findings);
+    Expansion expansion;
+    expand(top, files, registry, settings, expansion, found);
+    Dag dag;
+    if (!expansion.abandoned) dag = connect(expansion, registry, found);
+    if (found.failed()) {
+      ++failures;
+    } else if (failures == 0) {
+      merger.add(std::move(dag));
+    }
+    all.add(sweep.name_of(choice), found.take(files.names));
+    if (failures == enough_failures) break;
+    if (merger.nodes() > max_instances) {
+      findings.error(top, top.sweep ? top.sweep->offset : top.root.offset,
+                     "the sweep expands to more than " + std::to_string(max_instances) + " nodes");
+      break;
+    }
+  }
+  all.move_to(findings);
+  return findings.failed() ? Dag() : merger.finish();
+}
+
+}  // namespace
+
+std::string base_path(const std::string& path) {
+  const std::size_t end = path.empty() || path[0] != '[' ? std::string::npos : path.find("]/");
+  return end == std::string::npos ? path : path.substr(end + 2);
+}
+
 Dag parse_graph(const std::string& text, const std::string& file, const Registry& registry,
-                const std::vector<Override>& overrides) {
+                const std::vector<Override>& overrides, const SweepOptions& options) {
   Findings findings;
-  Expansion expansion;
-  expansion.file_names.push_back(file);
+  GraphFiles files(findings);
+  files.names.push_back(file);
+  std::vector<Setting> sets;
+  for (const Override& override_ : overrides) {
+    Setting& set = sets.emplace_back();
+    set.name = override_.name;
+    set.text = override_.value;
+    set.origin = "--set " + override_.name + "=" + override_.value;
+  }
+  std::vector<const Setting*> settings;
+  for (const Setting& set : sets) settings.push_back(&set);
   Dag dag;
-  if (std::unique_ptr<GraphFile> top = read_graph_file(json_text::Source(file, text), findings)) {
-    expand(std::move(top), registry, overrides, expansion, findings);
-    if (!expansion.abandoned) dag = connect(expansion, registry, findings);
+  if (const auto top = read_graph_file(json_text::Source(file, text), findings)) {
+    if (const auto sweep = plan_sweep(*top, sets, options, findings)) {
+      dag = merge_variants(*top, files, registry, settings, *sweep, findings);
+    } else {
+      Expansion expansion;
+      expand(*top, files, registry, settings, expansion, findings);
+      if (!expansion.abandoned) dag = connect(expansion, registry, findings);
+    }
   }
   const bool failed = findings.failed();
-  std::vector<Diagnostic> all = findings.take(expansion.file_names);
+  std::vector<Diagnostic> all = findings.take(files.names);
   if (failed) throw GraphError(std::move(all));
   dag.warnings = std::move(all);
   return dag;
 }
 
-Dag load_graph(const std::string& file, const Registry& registry, const std::vector<Override>& overrides) {
-  return parse_graph(read_text_file(file), file, registry, overrides);
+Dag load_graph(const std::string& file, const Registry& registry, const std::vector<Override>& overrides,
+               const SweepOptions& sweep) {
+  return parse_graph(read_text_file(file), file, registry, overrides, sweep);
 }
 
 }  // namespace ballflow

@@ -75,6 +75,19 @@ std::vector<Diagnostic> Findings::take(const std::vector<std::string>& files) {
   return std::move(all_);
 }
 
+bool known_keys(const GraphFile& file, Findings& findings, const Value& object, const std::string& what,
+                const std::vector<std::string>& known) {
+  bool good = true;
+  for (const Member& member : object.members) {
+    if (std::find(known.begin(), known.end(), member.key) != known.end()) continue;
+    std::string hint = did_you_mean(member.key, known);
+    findings.error(file, member.offset, "unknown key " + in_quotes(member.key),
+                   hint.empty() ? what + " has the keys " + listed(known) : std::move(hint));
+    good = false;
+  }
+  return good;
+}
+
 namespace {
 
 /// Names of nodes: also - inside, because paths and edges only use / and . as separators.
@@ -90,7 +103,7 @@ class Reader {
 
   void read() {
     const Value& root = file_.root;
-    known_keys(root, "a graph", {"$schema", "doc", "params", "inputs", "nodes", "outputs"});
+    known_keys(root, "a graph", {"$schema", "doc", "params", "inputs", "nodes", "outputs", "sweep", "map"});
     for (const Member& member : root.members) {
       if (member.key == "$schema") text(member, ignored_);
       if (member.key == "doc") text(member, file_.doc);
@@ -104,6 +117,7 @@ class Reader {
     std::size_t index = 0;
     each(root, "nodes", [&](const Member& member) { read_node(member, file_.nodes[index++]); });
     each(root, "outputs", [&](const Member& member) { read_output(member); });
+    read_sweep(file_, findings_);
     warn_unused();
   }
 
@@ -113,15 +127,7 @@ class Reader {
   }
 
   bool known_keys(const Value& object, const std::string& what, const std::vector<std::string>& known) {
-    bool good = true;
-    for (const Member& member : object.members) {
-      if (std::find(known.begin(), known.end(), member.key) != known.end()) continue;
-      std::string hint = did_you_mean(member.key, known);
-      error(member.offset, "unknown key " + in_quotes(member.key),
-            hint.empty() ? what + " has the keys " + listed(known) : std::move(hint));
-      good = false;
-    }
-    return good;
+    return ballflow::known_keys(file_, findings_, object, what, known);
   }
 
   bool text(const Member& member, std::string& to) {

@@ -91,6 +91,24 @@ struct GraphOutput {
   Reference from;
 };
 
+/// A parameter and what it is to have, one after the other.
+struct SweepAxis {
+  struct Value {
+    Json json;  // a number, a boolean or a text
+    Offset offset = 0;
+  };
+  std::string name;
+  Offset offset = 0;
+  std::vector<Value> values;
+};
+
+struct GraphSweep {
+  Offset offset = 0;
+  bool zip = false;
+  std::vector<SweepAxis> axes;
+  std::vector<std::vector<SweepAxis>> excluded;  // each axis with one value
+};
+
 struct GraphFile {
   explicit GraphFile(json_text::Source text) : source(std::move(text)) {}
   json_text::Source source;
@@ -100,16 +118,20 @@ struct GraphFile {
   std::vector<GraphInput> inputs;
   std::vector<GraphNode> nodes;
   std::vector<GraphOutput> outputs;
+  std::optional<GraphSweep> sweep;
+  std::vector<SweepAxis> maps;  // parameters and file patterns
   std::unordered_map<std::string, std::size_t> param_index, input_index, node_index, output_index;
 };
 
 /// Findings of all files of a graph, each once.
 class Findings {
  public:
+  /// `base`: findings that were made before; where they are errors this has failed, too.
+  explicit Findings(const Findings* base = nullptr) : base_(base) {}
   void error(const GraphFile& file, Offset offset, std::string message, std::string hint = {});
   void warning(const GraphFile& file, Offset offset, std::string message, std::string hint = {});
   void add(Diagnostic finding);
-  bool failed() const { return failed_; }
+  bool failed() const { return failed_ || (base_ != nullptr && base_->failed()); }
   std::size_t size() const { return all_.size(); }
   /// Sorted by file (in order of first reading) and place.
   std::vector<Diagnostic> take(const std::vector<std::string>& files);
@@ -118,7 +140,15 @@ class Findings {
   std::vector<Diagnostic> all_;
   std::set<std::string> keys_;
   bool failed_ = false;
+  const Findings* base_;
 };
+
+/// Reports the keys of an object that are not among `known`; `what` says what it is ("a node").
+bool known_keys(const GraphFile& file, Findings& findings, const json_text::Value& object,
+                const std::string& what, const std::vector<std::string>& known);
+
+/// Reads the sections "sweep" and "map" of a graph.
+void read_sweep(GraphFile& file, Findings& findings);
 
 /// Reads a text; null when it is no JSON object. Everything else that is wrong becomes findings, and the
 /// elements concerned are marked as broken.

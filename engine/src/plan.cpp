@@ -34,7 +34,13 @@ std::set<std::size_t> nodes_named(const Dag& dag, const std::string& path) {
   for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
     const std::string& node = dag.nodes[i].path;
     known.push_back(node);
-    if (node == path || node.rfind(path + "/", 0) == 0) found.insert(i);
+    const auto is_or_below = [&path](const std::string& one) {
+      return one == path || one.rfind(path + "/", 0) == 0;
+    };
+    if (is_or_below(node) || is_or_below(base_path(node))) found.insert(i);
+  }
+  for (const Variant& variant : dag.variants) {
+    if (variant.name == path) found.insert(variant.nodes.begin(), variant.nodes.end());
   }
   if (!found.empty()) return found;
   const std::string near = nearest(path, known);

@@ -26,6 +26,27 @@ Json outputs_json(const std::vector<OutputEntry>& outputs) {
   return json;
 }
 
+Json interfaces_json(const Dag& dag, const std::vector<DagOutput>& interfaces) {
+  Json json = Json::object();
+  for (const DagOutput& output : interfaces) {
+    json.get_ref<Json::object_t&>().emplace_back(output.name,
+                                                 dag.nodes[output.from.node].path + "." + output.from.port);
+  }
+  return json;
+}
+
+/// "skipped": not all of it was computed, since another variant failed or the run was cancelled.
+const char* status_of(const Variant& variant, const RunResult& result, const std::vector<bool>& needed) {
+  bool complete = true;
+  for (const std::size_t i : variant.nodes) {
+    const NodeResult& node = result.nodes[i];
+    if (node.status == NodeStatus::failed) return "failed";
+    const bool there = node.status == NodeStatus::hit || node.status == NodeStatus::run;
+    complete = complete && (there || !needed[i]);
+  }
+  return complete ? "ok" : "skipped";
+}
+
 }  // namespace
 
 std::string_view to_string(ExitCode status) {
@@ -47,11 +68,8 @@ std::string_view to_string(ExitCode status) {
 }
 
 Json node_report(const DagNode& node, const NodeResult& r) {
-  Json json = {{"type", node.decl->id},
-               {"status", to_string(r.status)},
-               {"reason", r.reason},
-               {"seconds", r.seconds},
-               {"cpu_seconds", r.cpu_seconds}};
+  Json json = {{"type", node.decl->id}, {"status", to_string(r.status)}, {"reason", r.reason},
+               {"seconds", r.seconds},  {"cpu_seconds", r.cpu_seconds},  {"cost_seconds", r.cost_seconds}};
   if (r.iterations) json["iterations"] = *r.iterations;
   if (!r.deterministic) json["deterministic"] = false;
   json["params"] = Json::object();
@@ -93,6 +111,23 @@ Json run_report(const std::string& id, const Dag& dag, const RunResult& result) 
     }
   }
   report["outputs"] = std::move(outputs);
+  if (dag.variants.empty()) {
+    report["subgraphs"] = interfaces_json(dag, dag.interfaces);
+    return report;
+  }
+  report["axes"] = Json::array();
+  for (const auto& [name, value] : dag.variants[0].values) report["axes"].push_back(name);
+  report["variants"] = Json::array();
+  const std::vector<bool> needed = needed_nodes(dag);
+  for (const Variant& variant : dag.variants) {
+    Json json = {{"name", variant.name}, {"status", status_of(variant, result, needed)}};
+    json["params"] = Json::object();
+    for (const auto& [name, value] : variant.values) json["params"][name] = value;
+    json["nodes"] = Json::array();
+    for (const std::size_t node : variant.nodes) json["nodes"].push_back(dag.nodes[node].path);
+    json["subgraphs"] = interfaces_json(dag, variant.interfaces);
+    report["variants"].push_back(std::move(json));
+  }
   return report;
 }
 

@@ -370,6 +370,7 @@ void Runner::Impl::adopt(std::size_t i, const ActionEntry& entry, const std::str
   NodeResult& result = result_.nodes[i];
   result.outputs = entry.outputs;
   result.warnings = entry.warnings;
+  result.cost_seconds = entry.seconds;
   const NodeResult* previous = before_ != nullptr && i < before_->size() ? &(*before_)[i] : nullptr;
   if (previous != nullptr && previous->status == NodeStatus::run && previous->manifest == result.manifest) {
     result.seconds = previous->seconds;  // it ran in an earlier round of this run
@@ -440,6 +441,7 @@ void Runner::Impl::settle(std::size_t i, NodeStatus status, const std::string& r
 void Runner::Impl::follow(std::size_t i, std::size_t leader) {
   result_.nodes[i].outputs = result_.nodes[leader].outputs;
   result_.nodes[i].warnings = result_.nodes[leader].warnings;
+  result_.nodes[i].cost_seconds = result_.nodes[leader].cost_seconds;
   {
     const std::scoped_lock lock(states_[leader]->mutex, states_[i]->mutex);
     states_[i]->held = states_[leader]->held;

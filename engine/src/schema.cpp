@@ -188,6 +188,42 @@ Json graph_param_schema() {
             {"doc", text}}}};
 }
 
+Json sweep_schema() {
+  const Json value = {{"type", {"number", "boolean", "string"}}};
+  return {{"type", "object"},
+          {"description", "run once for every combination of values; what they have in common runs once"},
+          {"additionalProperties", false},
+          {"required", {"axes"}},
+          {"properties",
+           {{"axes",
+             {{"type", "object"},
+              {"description", "values of parameters of the graph, or of a node (\"prune/greedy.mode\")"},
+              {"additionalProperties",
+               {{"type", "array"}, {"minItems", 1}, {"uniqueItems", true}, {"items", value}}}}},
+            {"mode",
+             {{"default", "product"},
+              {"oneOf",
+               {{{"const", "product"}, {"description", "every combination, the last axis fastest"}},
+                {{"const", "zip"},
+                 {"description", "the first values of all axes, then the second ones, and so on"}}}}}},
+            {"exclude",
+             {{"type", "array"},
+              {"description", "combinations that are left out"},
+              {"items", {{"type", "object"}, {"minProperties", 1}, {"additionalProperties", value}}}}}}}};
+}
+
+Json map_schema() {
+  const Json pattern = {{"type", "string"}};
+  return {
+      {"type", "object"},
+      {"description",
+       "parameters of kind file that get every file that matches: a pattern with *, ? or [...], or a list of "
+       "patterns and names, relative to the current directory"},
+      {"propertyNames", {{"pattern", identifier}}},
+      {"additionalProperties",
+       {{"anyOf", {pattern, {{"type", "array"}, {"minItems", 1}, {"items", pattern}}}}}}};
+}
+
 std::string cell(const std::string& text) {
   std::string result;
   for (const char c : text) {
@@ -308,6 +344,8 @@ Json graph_schema(const Registry& registry) {
              {{"type", "object"},
               {"propertyNames", {{"pattern", node_name}, {"not", {{"const", "inputs"}}}}},
               {"additionalProperties", {{"$ref", "#/definitions/node"}}}}},
+            {"sweep", sweep_schema()},
+            {"map", map_schema()},
             {"outputs",
              {{"type", "object"},
               {"propertyNames", {{"pattern", identifier}}},

@@ -29,11 +29,17 @@ struct Common {
 /// The graph of a command and the values set for it.
 struct GraphArguments {
   std::string file;
-  std::vector<std::string> sets;
+  std::vector<std::string> sets, axes, inputs;
 
   void add_to(CLI::App& command);
-  std::vector<Override> overrides() const;
+  /// Reads and checks the graph, with what was set; prints its warnings.
+  Dag load(const Registry& registry) const;
+  /// The words of a command line that give the same graph, quoted for a shell.
+  std::string words() const;
 };
+
+/// A word of a command line, quoted for a shell where it has to be.
+std::string quoted(const std::string& text);
 
 /// What decides how a graph runs.
 struct RunSettings {
@@ -52,6 +58,8 @@ struct RunSettings {
 using Action = std::function<int()>;
 
 void add_run(CLI::App& app, Common& common, Action& action);
+void add_sweep(CLI::App& app, Common& common, Action& action);
+void add_compare(CLI::App& app, Common& common, Action& action);
 void add_plan(CLI::App& app, Common& common, Action& action);
 void add_runs(CLI::App& app, Common& common, Action& action);
 void add_check(CLI::App& app, Common& common, Action& action);

@@ -32,19 +32,61 @@ void GraphArguments::add_to(CLI::App& command) {
           "set a parameter of the graph (epsilon=0.5) or of one node (prune/greedy.mode=until_covered)")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
+  command
+      .add_option(
+          "--axis", axes,
+          "run the graph once for every one of these values (epsilon=0.1,0.3); several axes give every\n"
+          "combination; replaces the axis of that name in the graph's \"sweep\"")
+      ->type_name("NAME=VALUES")
+      ->allow_extra_args(false);
+  command
+      .add_option("--inputs", inputs,
+                  "run the graph once for every file that matches ('scans/*.ply'); NAME=PATTERN chooses the\n"
+                  "parameter when the graph has several of kind file")
+      ->type_name("PATTERN...");
 }
 
-std::vector<Override> GraphArguments::overrides() const {
+namespace {
+
+std::vector<Override> split(const char* option, const std::vector<std::string>& texts, const char* example) {
   std::vector<Override> result;
-  for (const std::string& set : sets) {
-    const std::size_t equals = set.find('=');
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0) {
-      throw Error(ExitCode::usage, "--set " + set + ": no \"=\" between a name and a value",
-                  "write it as --set epsilon=0.5");
+      throw Error(ExitCode::usage, std::string(option) + " " + text + ": no \"=\" between a name and a value",
+                  std::string("write it as ") + option + " " + example);
     }
-    result.push_back({set.substr(0, equals), set.substr(equals + 1)});
+    result.push_back({text.substr(0, equals), text.substr(equals + 1)});
   }
   return result;
+}
+
+}  // namespace
+
+Dag GraphArguments::load(const Registry& registry) const {
+  Dag dag = load_graph(file, registry, split("--set", sets, "epsilon=0.5"),
+                       {split("--axis", axes, "epsilon=0.1,0.3"), inputs});
+  for (const Diagnostic& warning : dag.warnings) std::fprintf(stderr, "%s\n", warning.text().c_str());
+  return dag;
+}
+
+std::string GraphArguments::words() const {
+  std::string text = quoted(file);
+  for (const std::string& set : sets) text += " --set " + quoted(set);
+  for (const std::string& axis : axes) text += " --axis " + quoted(axis);
+  if (!inputs.empty()) text += " --inputs";
+  for (const std::string& input : inputs) text += " " + quoted(input);
+  return text;
+}
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+%@") ==
+      std::string::npos) {
+    return text;
+  }
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + "'";
 }
 
 void print_table(const std::vector<std::vector<std::string>>& rows) {

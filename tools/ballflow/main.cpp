@@ -22,6 +22,8 @@ int main(int argc, char** argv) {
       ->type_name("PATH");
   cli::Action action;
   cli::add_run(app, common, action);
+  cli::add_sweep(app, common, action);
+  cli::add_compare(app, common, action);
   cli::add_plan(app, common, action);
   cli::add_runs(app, common, action);
   cli::add_check(app, common, action);

@@ -20,19 +20,19 @@ namespace fs = std::filesystem;
 constexpr const char* record_name = ".ballflow-outputs.json";
 
 /// Size and time of a file, as recorded beside the digest it was made from.
-Json stamp(const std::string& path) {
+nlohmann::json stamp(const std::string& path) {
   struct stat info {};
   if (stat(path.c_str(), &info) != 0) return nullptr;
   return {{"size", static_cast<std::int64_t>(info.st_size)},
           {"mtime_ns", static_cast<std::int64_t>(info.st_mtim.tv_sec) * 1000000000 + info.st_mtim.tv_nsec}};
 }
 
-Json read_record(const fs::path& path) {
+nlohmann::json read_record(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   std::ostringstream text;
   text << in.rdbuf();
-  Json record = Json::parse(text.str(), nullptr, false);  // keyed by the names of the files in the folder
-  return record.is_object() ? record : Json::object();
+  auto record = nlohmann::json::parse(text.str(), nullptr, false);  // keyed by the names of the files
+  return record.is_object() ? record : nlohmann::json::object();
 }
 
 }  // namespace
@@ -51,8 +51,8 @@ WrittenOutputs write_outputs(const std::string& folder, const Dag& dag, const Ru
                              const std::map<std::string, std::string>& formats,
                              const std::function<ArtifactPtr(const EdgeRef&)>& load) {
   const fs::path record_path = fs::path(folder) / record_name;
-  const Json before = read_record(record_path);
-  Json record = before;  // other graphs may write to this folder too
+  const nlohmann::json before = read_record(record_path);
+  nlohmann::json record = before;  // other graphs may write to this folder too
   WrittenOutputs written;
   for (const DagOutput& output : dag.outputs) {
     const OutputEntry* entry = nullptr;
@@ -60,18 +60,20 @@ WrittenOutputs write_outputs(const std::string& folder, const Dag& dag, const Ru
       if (candidate.port == output.from.port) entry = &candidate;
     }
     if (entry == nullptr) continue;  // its node failed
-    const auto chosen = formats.find(output.name);
+    const auto chosen = formats.find(output.base_name());
     const std::string format = chosen != formats.end() ? chosen->second : default_format(entry->type);
     const std::string name = output.name + "." + format;
     const std::string path = (fs::path(folder) / name).string();
-    Json made = {{"digest", entry->digest.hex()}, {"format", format}, {"version", BALLFLOW_VERSION}};
-    if (const Json now = stamp(path); !now.is_null()) made.update(now);
+    nlohmann::json made = {
+        {"digest", entry->digest.hex()}, {"format", format}, {"version", BALLFLOW_VERSION}};
+    if (const auto now = stamp(path); !now.is_null()) made.update(now);
     const bool current = before.contains(name) && before.at(name) == made && made.contains("size");
     try {
       if (!current) {
         record.erase(name);
+        fs::create_directories(fs::path(path).parent_path());  // of a variant
         export_artifact(*load(output.from), path, format);
-        if (const Json now = stamp(path); !now.is_null()) made.update(now);
+        if (const auto now = stamp(path); !now.is_null()) made.update(now);
         record[name] = std::move(made);
       }
       written.files.push_back({output.name, path, describe(*entry), !current});
@@ -81,7 +83,8 @@ WrittenOutputs write_outputs(const std::string& folder, const Dag& dag, const Ru
   }
   try {
     if (record != before)
-      write_atomically(record_path.string(), record.dump(1, ' ', false, Json::error_handler_t::replace));
+      write_atomically(record_path.string(),
+                       record.dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
   } catch (const Error& failure) {
     if (!written.failure) written.failure = failure;
   }

@@ -16,8 +16,7 @@ struct PlanArguments {
 
 int show_plan(const Common& common, const PlanArguments& arguments) {
   const auto registry = common.registry();
-  const Dag dag = load_graph(arguments.graph.file, *registry, arguments.graph.overrides());
-  for (const Diagnostic& warning : dag.warnings) std::fprintf(stderr, "%s\n", warning.text().c_str());
+  const Dag dag = arguments.graph.load(*registry);
   const auto store = common.store();
   const std::vector<NodePlan> plans =
       plan(dag, *store, arguments.seed, latest_manifests(*store, arguments.graph.file));
@@ -59,12 +58,12 @@ int show_plan(const Common& common, const PlanArguments& arguments) {
 
 int check(const Common& common, const GraphArguments& arguments) {
   const auto registry = common.registry();
-  const Dag dag = load_graph(arguments.file, *registry, arguments.overrides());
-  for (const Diagnostic& warning : dag.warnings) std::fprintf(stderr, "%s\n", warning.text().c_str());
+  const Dag dag = arguments.load(*registry);
   const auto counted = [](std::size_t n, const char* thing) {
     return std::to_string(n) + " " + thing + (n == 1 ? "" : "s");
   };
-  std::printf("%s: %s, %s, no errors\n", printable(arguments.file).c_str(),
+  const std::string variants = dag.variants.empty() ? "" : counted(dag.variants.size(), "variant") + " with ";
+  std::printf("%s: %s%s, %s, no errors\n", printable(arguments.file).c_str(), variants.c_str(),
               counted(dag.nodes.size(), "node").c_str(), counted(dag.outputs.size(), "output").c_str());
   return 0;
 }

@@ -14,6 +14,7 @@
 #include "ballflow/report.hpp"
 #include "ballflow/text.hpp"
 #include "commands.hpp"
+#include "compare.hpp"
 #include "event_lines.hpp"
 #include "export/export.hpp"
 #include "output_folder.hpp"
@@ -36,6 +37,7 @@ struct RunArguments {
   std::string out, report, trace;
   std::vector<std::string> formats;
   bool json = false, quiet = false;
+  bool sweep = false;  // the command is "sweep"
 };
 
 /// Hands every event to several sinks.
@@ -49,16 +51,6 @@ class Sinks final : public EventSink {
  private:
   std::vector<std::unique_ptr<EventSink>> sinks_;
 };
-
-std::string quoted(const std::string& text) {
-  if (text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+%@") ==
-      std::string::npos) {
-    return text;
-  }
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return result + "'";
-}
 
 void print_failure(const Common& common, const RunArguments& arguments, const Dag& dag,
                    const RunResult& result, std::size_t i) {
@@ -79,29 +71,36 @@ void print_failure(const Common& common, const RunArguments& arguments, const Da
   }
   std::string again = "ballflow";
   for (const std::string& plugin : common.plugins) again += " --plugin " + quoted(plugin);
-  again += " run " + quoted(arguments.graph.file);
+  again += " run " + arguments.graph.words();
   if (!common.cache.empty()) again += " --cache " + quoted(common.cache);
   if (common.no_cache) again += " --no-cache";
   if (arguments.settings.seed != 0) again += " --seed " + std::to_string(arguments.settings.seed);
-  for (const std::string& set : arguments.graph.sets) again += " --set " + quoted(set);
   std::fprintf(stderr, "  again, from this node on: %s\n", printable(again).c_str());
+}
+
+void print_totals(const RunResult& result) {
+  const auto count = [&result](NodeStatus status) {
+    return std::count_if(result.nodes.begin(), result.nodes.end(),
+                         [status](const NodeResult& node) { return node.status == status; });
+  };
+  std::printf("\n%s run, %s from the cache, %s (%s CPU), %s MB at most\n",
+              std::to_string(count(NodeStatus::run)).c_str(), std::to_string(count(NodeStatus::hit)).c_str(),
+              duration(result.seconds).c_str(), duration(result.cpu_seconds).c_str(),
+              grouped(static_cast<std::int64_t>(result.peak_rss_bytes >> 20)).c_str());
 }
 
 void print_result(const Dag& dag, const RunResult& result) {
   std::vector<std::vector<std::string>> rows = {{"node", "", "seconds", "result"}};
-  std::size_t hits = 0, runs = 0;
   for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
     const NodeResult& node = result.nodes[i];
     std::string status, seconds;
     switch (node.status) {
       case NodeStatus::hit:
         status = "HIT";
-        ++hits;
         break;
       case NodeStatus::run:
         status = "RUN";
         seconds = duration(node.seconds);
-        ++runs;
         break;
       case NodeStatus::failed:
         status = "FAILED";
@@ -121,19 +120,25 @@ void print_result(const Dag& dag, const RunResult& result) {
   }
   std::printf("\n");
   print_table(rows);
-  std::printf("\n%zu run, %zu from the cache, %s (%s CPU), %s MB at most\n", runs, hits,
-              duration(result.seconds).c_str(), duration(result.cpu_seconds).c_str(),
-              grouped(static_cast<std::int64_t>(result.peak_rss_bytes >> 20)).c_str());
+  print_totals(result);
+}
+
+/// The table of "ballflow compare".
+void print_variants(const Json& report) {
+  RunRecord record;
+  record.report = nlohmann::json(report);
+  std::printf("\n%s", render(compare({record}, {}), "text").c_str());
 }
 
 void check_formats(const Dag& dag, const std::map<std::string, std::string>& formats) {
   for (const auto& [name, format] : formats) {
     const std::string option = "--format " + name + "=" + format + ": ";
-    const auto output = std::find_if(dag.outputs.begin(), dag.outputs.end(),
-                                     [&name = name](const DagOutput& known) { return known.name == name; });
+    const auto output =
+        std::find_if(dag.outputs.begin(), dag.outputs.end(),
+                     [&name = name](const DagOutput& known) { return known.base_name() == name; });
     if (output == dag.outputs.end()) {
       std::vector<std::string> names;
-      for (const DagOutput& known : dag.outputs) names.push_back(known.name);
+      for (const DagOutput& known : dag.outputs) names.push_back(known.base_name());
       const std::string near = nearest(name, names);
       throw Error(ExitCode::usage, option + "the graph has no output \"" + name + "\"",
                   near.empty() ? "" : "did you mean \"" + near + "\"?");
@@ -173,14 +178,22 @@ int run(const Common& common, const RunArguments& arguments) {
     formats[format.substr(0, equals)] = format.substr(equals + 1);
   }
   const auto registry = common.registry();
-  const Dag dag = load_graph(arguments.graph.file, *registry, arguments.graph.overrides());
-  for (const Diagnostic& warning : dag.warnings) std::fprintf(stderr, "%s\n", warning.text().c_str());
+  const Dag dag = arguments.graph.load(*registry);
+  if (arguments.sweep && dag.variants.empty()) {
+    throw Error(ExitCode::usage, arguments.graph.file + " has no \"sweep\"",
+                "say what to sweep over: --axis NAME=VALUE,VALUE, or --inputs 'PATTERN' for files");
+  }
   check_formats(dag, formats);
+  // A folder of results says what they are results of.
+  const std::string report_path = !arguments.report.empty() || arguments.out.empty() || dag.variants.empty()
+                                      ? arguments.report
+                                      : arguments.out + "/report.json";
   // Before hours of computing, not after them.
   if (!arguments.out.empty()) prepare_folder(arguments.out);
-  check_writable("--report", arguments.report);
+  check_writable("--report", report_path);
   check_writable("--trace", arguments.trace);
   RunOptions options = arguments.settings.options(dag);
+  if (!dag.variants.empty()) options.keep_going = true;  // one that fails must not void the others
   const auto store = common.store();
   if (!common.no_cache && !store->why().empty()) {
     std::fprintf(stderr, "warning: the cache is not written: %s\n", store->why().c_str());
@@ -227,7 +240,7 @@ int run(const Common& common, const RunArguments& arguments) {
       if (!written.failure) written.failure = failure;
     }
   };
-  record("report", arguments.report, report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  record("report", report_path, report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
   if (timeline != nullptr) record("trace", arguments.trace, timeline->text());
   if (arguments.json) {
     Json files = Json::object();
@@ -243,9 +256,21 @@ int run(const Common& common, const RunArguments& arguments) {
   std::signal(SIGPIPE, on_broken_pipe);
 
   if (!arguments.quiet && !arguments.json) {
-    print_result(dag, result);
-    if (options.check_determinism && result.status == ExitCode::ok) {
+    if (dag.variants.empty()) {
+      print_result(dag, result);
+    } else {
+      print_variants(report);
+      print_totals(result);
+    }
+    if (options.check_determinism && result.status == ExitCode::ok)
       std::printf("same results with 1 and with %u threads\n", several_threads(options));
+    if (!dag.variants.empty() && !written.files.empty()) {
+      const auto fresh = std::count_if(written.files.begin(), written.files.end(),
+                                       [](const WrittenFile& file) { return file.written; });
+      std::printf("wrote %s of %s files below %s\n", grouped(fresh).c_str(),
+                  grouped(static_cast<std::int64_t>(written.files.size())).c_str(),
+                  printable(arguments.out).c_str());
+      written.files.clear();
     }
     for (const WrittenFile& file : written.files) {
       std::printf("%s %s: %s\n", file.written ? "wrote" : "kept ", printable(file.path).c_str(),
@@ -274,9 +299,14 @@ int run(const Common& common, const RunArguments& arguments) {
 
 }  // namespace
 
-void add_run(CLI::App& app, Common& common, Action& action) {
-  CLI::App* command = app.add_subcommand("run", "run a graph; what is in the cache is not computed again");
+namespace {
+
+void add_command(CLI::App& app, Common& common, Action& action, bool sweep) {
+  CLI::App* command =
+      sweep ? app.add_subcommand("sweep", "run all variants of a graph; what they have in common runs once")
+            : app.add_subcommand("run", "run a graph; what is in the cache is not computed again");
   const auto arguments = std::make_shared<RunArguments>();
+  arguments->sweep = sweep;
   arguments->graph.add_to(*command);
   command->add_option("--out", arguments->out, "folder that receives the outputs of the graph")
       ->type_name("DIR");
@@ -302,8 +332,19 @@ void add_run(CLI::App& app, Common& common, Action& action) {
   command->add_flag("--json", arguments->json,
                     "write events as lines of JSON (schemas/run_events.schema.json) to the standard output");
   command->add_flag("--quiet", arguments->quiet, "print errors only");
+  if (sweep) {
+    command->footer(
+        "Outputs go to a folder per variant, DIR/epsilon=0.1,strategy=greedy/, the report to "
+        "DIR/report.json.\n"
+        "\"ballflow compare\" prints the table again, with other columns and formats.");
+  }
   command->callback(
       [&common, &action, arguments] { action = [&common, arguments] { return run(common, *arguments); }; });
 }
+
+}  // namespace
+
+void add_run(CLI::App& app, Common& common, Action& action) { add_command(app, common, action, false); }
+void add_sweep(CLI::App& app, Common& common, Action& action) { add_command(app, common, action, true); }
 
 }  // namespace ballflow::cli

@@ -28,6 +28,17 @@
 // <, <=, >, >=, joined by `and` and `or` (`and` binds first). A field that is null fulfils no comparison,
 // true is 1. `at_limit` says what happens when max_iterations (default 10000) have run and `until` does not
 // hold: "error" (default), or "stop", which keeps the state reached and warns.
+//
+// A sweep runs a graph once for every combination of values; what combinations have in common runs once:
+//   "sweep": { "axes": { "epsilon": [0.1, 0.3], "prune/greedy.mode": ["all", "until_covered"] },
+//              "mode": "product", "exclude": [{ "epsilon": 0.1, "prune/greedy.mode": "all" }] },
+//   "map": { "input": "scans/*.ply" }
+// An axis names a parameter of the graph or of a node, as --set does. Mode "product" (the default) takes
+// every combination, the last axis fastest; "zip" takes the first values of all axes, the second ones, and so
+// on. A combination that has all values of an entry of "exclude" is left out. "map" gives a parameter of kind
+// file every file that matches, sorted (a pattern with *, ? or [...], or a list of patterns and names,
+// relative to the current directory; "scheme:..." is taken as it is); every combination of the axes is run
+// for every file. Only the sweep of the top graph counts.
 #pragma once
 
 #include <map>
@@ -70,17 +81,35 @@ struct DagNode {
 };
 
 struct DagOutput {
-  std::string name, doc;
+  std::string name, doc;  // of a sweep: "epsilon=0.1,strategy=greedy/balls", the name of the variant first
   EdgeRef from;
+
+  /// "balls"
+  std::string base_name() const { return name.substr(name.rfind('/') + 1); }
+};
+
+/// One combination of the values of a sweep.
+struct Variant {
+  std::string name;  // "epsilon=0.1,strategy=greedy"; fit for a folder, unique, at most 200 bytes
+  std::vector<std::pair<std::string, Json>> values;  // parameter and value, by axis
+  std::vector<std::size_t> nodes;                    // of Dag::nodes; others may have them too
+  std::vector<DagOutput> interfaces;                 // as Dag::interfaces
 };
 
 /// Subgraphs, parameters and includes resolved. Nodes are in topological order, ties by path.
+///
+/// Of a sweep it holds the nodes of all variants. Nodes that are the same in several variants (same type,
+/// path and parameters, inputs from the same nodes) are one node. The path of a node says which variants have
+/// it:
+/// "[epsilon=0.1]/enlarge" belongs to those with this epsilon, "poles" to all.
 struct Dag {
   std::string file;
   std::string doc;
-  std::map<std::string, Json> params;  // of the top graph, overrides applied
+  std::map<std::string, Json> params;  // of the top graph, overrides applied; not those that are swept
   std::vector<DagNode> nodes;
   std::vector<DagOutput> outputs;
+  std::vector<DagOutput> interfaces;  // outputs of subgraphs ("prune.cover"); not of a sweep: see Variant
+  std::vector<Variant> variants;      // of a sweep, else none
   std::vector<Diagnostic> warnings;
 
   const DagNode* find(const std::string& path) const;
@@ -106,16 +135,29 @@ struct Override {
   std::string name, value;
 };
 
+/// What the command line says about a sweep.
+struct SweepOptions {
+  /// --axis: a name as in Override, and values "0.1,0.3" or a JSON list. Replaces the axis of that name, or
+  /// is one more.
+  std::vector<Override> axes;
+  /// --inputs: file patterns, for the parameter that "map" names, else for the only file parameter of the
+  /// graph; "name=pattern" chooses the parameter.
+  std::vector<std::string> inputs;
+};
+
+/// The path of a node without the variants that have it: "[epsilon=0.1]/enlarge" -> "enlarge".
+std::string base_path(const std::string& path);
+
 /// Reads, expands and checks a graph file: syntax, unknown and duplicate keys, node types, ports, types of
 /// edges, required inputs, cycles, parameter kinds and ranges, overrides that match nothing. Throws
 /// GraphError with ALL findings. Relative paths of file parameters written in a graph file are relative to
 /// the current directory when they come from an override or a default, as on every command line.
-/// Limits: 64 MB of text, nesting depth 100, 1 000 000 nodes, subgraphs 50 deep.
-Dag load_graph(const std::string& file, const Registry& registry,
-               const std::vector<Override>& overrides = {});
+/// Limits: 64 MB of text, nesting depth 100, 1 000 000 nodes, subgraphs 50 deep, 100 000 variants.
+Dag load_graph(const std::string& file, const Registry& registry, const std::vector<Override>& overrides = {},
+               const SweepOptions& sweep = {});
 
 /// The same from text; `file` is the name used in messages and the base of relative subgraph paths.
 Dag parse_graph(const std::string& text, const std::string& file, const Registry& registry,
-                const std::vector<Override>& overrides = {});
+                const std::vector<Override>& overrides = {}, const SweepOptions& sweep = {});
 
 }  // namespace ballflow

@@ -45,6 +45,7 @@ struct NodeResult {
   NodeStatus status = NodeStatus::pending;
   std::string reason;                   // why it ran, or why it was a hit
   double seconds = 0, cpu_seconds = 0;  // of this run; 0 for a hit
+  double cost_seconds = 0;              // what computing it took, in this run or in the one that stored it
   std::string manifest;                 // of the key; empty when an input never came to be
   std::vector<OutputEntry> outputs;
   std::vector<std::string> warnings;
