@@ -46,13 +46,15 @@ class VariantFindings {
   std::size_t variants_ = 0;
 };
 
+// Of all variants before they are merged; a graph without a sweep may have a tenth.
+constexpr std::size_t max_expanded = 10 * max_instances;
 constexpr std::size_t enough_failures = 20;  // variants that are wrong before the others are not looked at
 
 Dag merge_variants(const GraphFile& top, GraphFiles& files, const Registry& registry,
                    const std::vector<const Setting*>& sets, const Sweep& sweep, Findings& findings) {
   VariantMerger merger(sweep);
   VariantFindings all;
-  std::size_t failures = 0;
+  std::size_t failures = 0, expanded = 0;
   for (const Sweep::Choice& choice : sweep.variants) {
     std::vector<const Setting*> settings = sets;
     for (std::size_t axis = 0; axis < choice.size(); ++axis)
@@ -69,11 +71,13 @@ Dag merge_variants(const GraphFile& top, GraphFiles& files, const Registry& regi
     }
     all.add(sweep.name_of(choice), found.take(files.names));
     if (failures == enough_failures) break;
-    if (merger.nodes() > max_instances) {
-      findings.error(top, top.sweep ? top.sweep->offset : top.root.offset,
-                     "the sweep expands to more than " + std::to_string(max_instances) + " nodes");
-      break;
-    }
+    expanded += expansion.leaves.size() + expansion.scopes.size();
+    if (merger.nodes() <= max_instances && expanded <= max_expanded) continue;
+    findings.error(top, top.sweep ? top.sweep->offset : top.root.offset,
+                   "the sweep has " + std::to_string(sweep.variants.size()) + " variants with more than " +
+                       std::to_string(expanded > max_expanded ? max_expanded : max_instances) + " nodes",
+                   "take fewer values");
+    break;
   }
   all.move_to(findings);
   return findings.failed() ? Dag() : merger.finish();

@@ -133,6 +133,20 @@ TEST_F(SweepCli, files_are_inputs_and_folders) {
   EXPECT_NE(none.err.find("no file matches"), std::string::npos) << none.err;
 }
 
+TEST_F(SweepCli, a_variant_that_fails_does_not_cost_the_others_their_files) {
+  const ProcessResult result =
+      ballflow({"sweep", test::source_file("graphs/dmt.json"), "--inputs", "shape:torus?n=500",
+                folder.file("missing.off"), "--out", folder.file("out")});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_NE(result.err.find("[input=missing.off]/sample (Sample) failed"), std::string::npos) << result.err;
+  EXPECT_NE(result.out.find("shape:torus?n=500"), std::string::npos) << result.out;
+  const json report = json::parse(test::read_file(folder.file("out/report.json")));
+  EXPECT_EQ(report.at("variants")[0].at("status"), "failed");
+  EXPECT_EQ(report.at("variants")[1].at("status"), "ok");
+  EXPECT_TRUE(fs::exists(folder.file("out/input=shape:torus_n_500/inner.ply")));
+  EXPECT_FALSE(fs::exists(folder.file("out/input=missing.off/inner.ply")));
+}
+
 TEST_F(SweepCli, plan_check_and_run_understand_sweeps) {
   const ProcessResult checked = ballflow({"check", graph});
   EXPECT_NE(checked.out.find("6 variants with 39 nodes, 24 outputs, no errors"), std::string::npos)

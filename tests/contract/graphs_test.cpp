@@ -2,6 +2,7 @@
 // depend on the number of threads.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 
 #include "ballflow/run.hpp"
@@ -70,6 +71,49 @@ TEST_P(EveryGraph, runs_on_a_generated_model_with_equal_digests_for_any_number_o
 
 INSTANTIATE_TEST_SUITE_P(Graphs, EveryGraph, testing::ValuesIn(names_in("graphs")),
                          [](const auto& instance) { return instance.param; });
+
+class EveryExperiment : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryExperiment, runs_on_a_generated_model_and_shares_what_its_variants_have_in_common) {
+  const Dag dag = load_graph(test::source_file("graphs/experiments/" + GetParam() + ".json"), registry(),
+                             {{"input", "shape:torus?n=1500"}});
+  EXPECT_FALSE(dag.doc.empty());
+  ASSERT_GT(dag.variants.size(), 1u);
+  std::size_t alone = 0;
+  for (const Variant& variant : dag.variants) alone += variant.nodes.size();
+  EXPECT_LT(dag.nodes.size(), alone);
+  const auto results = run_with_threads(dag, {1, 4});
+  ASSERT_EQ(results[0].status, ExitCode::ok);
+  expect_equal_digests(dag, results);
+}
+
+INSTANTIATE_TEST_SUITE_P(Experiments, EveryExperiment, testing::ValuesIn(names_in("graphs/experiments")),
+                         [](const auto& instance) { return instance.param; });
+
+TEST(GraphFiles, fit_the_schema_for_editors) {
+  if (std::system("python3 -c 'import jsonschema' 2>/dev/null") != 0)
+    GTEST_SKIP() << "python3 with jsonschema is not installed";
+  const test::TempFolder folder;
+  Json graphs = Json::object();
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(test::source_file("graphs"))) {
+    if (entry.path().extension() == ".json")
+      graphs[entry.path().string()] =
+          Json::parse(test::read_file(entry.path().string()), nullptr, true, true);
+  }
+  ASSERT_GT(graphs.size(), 5u);
+  test::write_file(folder.file("graphs.json"), graphs.dump());
+  test::write_file(folder.file("check.py"), R"(
+import json, sys, jsonschema
+validator = jsonschema.Draft7Validator(json.load(open(sys.argv[1])))
+wrong = [(file, error.message) for file, graph in json.load(open(sys.argv[2])).items() for error in validator.iter_errors(graph)]
+for one in wrong: print(*one)
+sys.exit(1 if wrong else 0)
+)");
+  const std::string command = "python3 '" + folder.file("check.py") + "' '" +
+                              test::source_file("schemas/graph.schema.json") + "' '" +
+                              folder.file("graphs.json") + "'";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+}
 
 class EveryStrategy : public testing::TestWithParam<std::string> {};
 

@@ -123,11 +123,17 @@ void print_result(const Dag& dag, const RunResult& result) {
   print_totals(result);
 }
 
-/// The table of "ballflow compare".
-void print_variants(const Json& report) {
+/// The table of "ballflow compare", or its beginning.
+void print_variants(const std::string& id, const Json& report) {
+  constexpr std::size_t most_rows = 100;
   RunRecord record;
   record.report = nlohmann::json(report);
-  std::printf("\n%s", render(compare({record}, {}), "text").c_str());
+  Comparison table = compare({record}, {});
+  const std::size_t rows = table.rows.size();
+  table.rows.resize(std::min(rows, most_rows));
+  std::printf("\n%s", render(table, "text").c_str());
+  if (rows > most_rows)
+    std::printf("and %zu variants more: ballflow compare %s\n", rows - most_rows, id.c_str());
 }
 
 void check_formats(const Dag& dag, const std::map<std::string, std::string>& formats) {
@@ -259,7 +265,7 @@ int run(const Common& common, const RunArguments& arguments) {
     if (dag.variants.empty()) {
       print_result(dag, result);
     } else {
-      print_variants(report);
+      print_variants(id, report);
       print_totals(result);
     }
     if (options.check_determinism && result.status == ExitCode::ok)

@@ -115,7 +115,8 @@ std::vector<bool> needed_nodes(const Dag& dag);
 /// Which nodes these need, themselves included.
 std::vector<bool> needed_nodes(const Dag& dag, const std::set<std::size_t>& targets);
 
-/// The node of this path, or all nodes of this subgraph ("prune" has "prune/reduce" and "prune/greedy").
+/// The node of this path, or all nodes of this subgraph ("prune" has "prune/reduce" and "prune/greedy"). In a
+/// sweep "prune" means that of every variant, and the name of a variant all its nodes.
 /// Throws Error (code usage) with the nearest path when there is none.
 std::set<std::size_t> nodes_named(const Dag& dag, const std::string& path);
 

@@ -18,6 +18,9 @@ const char* const valid = R"({
   "params": { "input": { "kind": "file", "default": "m.off", "doc": "model" },
               "epsilon": { "kind": "number", "default": 0.3, "minimum": 0, "maximum": 1e2, "unit": "%" },
               "how": { "kind": "choice", "default": "fast", "choices": ["fast", { "value": "exact", "doc": "slow" }] } },
+  "sweep": { "axes": { "epsilon": [0.1, 2], "grow.closed": [true, false] }, "mode": "product",
+             "exclude": [{ "epsilon": 2, "grow.closed": true }] },
+  "map": { "input": ["a.off", "b.off"] },
   "nodes": {
     "load":  { "type": "Load", "params": { "file": "x-${input}", "mode": "${how}", "scale": 2.5 } },
     "grow":  { "type": "Grow", "inputs": { "points": "load.points", "extra": "sub.same" }, "params": { "epsilon": "${epsilon}", "closed": true } },

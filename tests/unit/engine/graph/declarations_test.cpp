@@ -230,6 +230,10 @@ TEST(schema, accepts_and_refuses_what_the_engine_does) {
     return R"({"nodes":{"l":{"type":"Load","params":{"file":"x"}},)" + nodes +
            R"(},"outputs":{"p":"l.points"}})";
   };
+  const auto sweep = [](const std::string& section) {
+    return R"({"sweep":)" + section +
+           R"(,"nodes":{"l":{"type":"Load","params":{"file":"x"}}},"outputs":{"p":"l.points"}})";
+  };
   const std::vector<std::string> texts = {
       R"({"$schema":"x","doc":"d","params":{"e":{"kind":"number","default":1},"c":{"kind":"choice","default":"fast","choices":["fast",{"value":"exact","doc":""}]}},
           "nodes":{"l":{"type":"Load","params":{"file":"a${e}","scale":"${e}","mode":"${c}"}}},"outputs":{"p":{"from":"l.points","doc":"d"}}})",
@@ -250,6 +254,18 @@ TEST(schema, accepts_and_refuses_what_the_engine_does) {
       graph(R"("g h":{"type":"Load","params":{"file":"x"}})"),
       graph(R"("inputs":{"type":"Load","params":{"file":"x"}})"),
       graph(R"("g":{"type":"Load","graph":"x.json"})"),
+      sweep(R"({"axes":{"l.scale":[1,2]},"mode":"zip","exclude":[{"l.scale":1}]})"),
+      sweep(R"({"axes":{"l.scale":[1,2]},"mode":"zipp"})"),
+      sweep(R"({"axes":{"l.scale":[]}})"),
+      sweep(R"({"axes":{"l.scale":1}})"),
+      sweep(R"({"axes":{"l.scale":[[1]]}})"),
+      sweep(R"({"axes":{"l.scale":[1,1]}})"),
+      sweep(R"({"axes":{"l.scale":[1]},"exclude":[{}]})"),
+      sweep(R"({"axis":{"l.scale":[1]}})"),
+      sweep(R"({})"),
+      R"({"params":{"f":{"kind":"file"}},"map":{"f":["a","b"]},"nodes":{}})",
+      R"({"params":{"f":{"kind":"file"}},"map":{"f":"a"},"nodes":{}})",
+      R"({"params":{"f":{"kind":"file","default":"x"}},"map":{"f":1},"nodes":{}})",
       R"({"node":{}})",
       R"({"nodes":{},"params":{"a":{"kind":"reel","default":1}}})",
       R"({"nodes":{},"params":{"a":{"kind":"choice","default":"x","choices":[]}}})"};
