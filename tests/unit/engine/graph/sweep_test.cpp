@@ -3,7 +3,6 @@
 
 #include <ctime>
 #include <filesystem>
-#include <regex>
 #include <set>
 
 #include "ballflow/graph.hpp"
@@ -182,7 +181,8 @@ TEST(sweep, names_are_fit_for_folders_whatever_the_values) {
   for (const Variant& variant : dag.variants) {
     EXPECT_TRUE(seen.insert(variant.name).second) << variant.name;
     EXPECT_LE(variant.name.size(), 200u);
-    EXPECT_TRUE(std::regex_match(variant.name, std::regex("label=[^][/, \\x00-\\x1f]*"))) << variant.name;
+    EXPECT_EQ(variant.name.find_first_of("/[], \t\n\x1b"), std::string::npos) << variant.name;
+    EXPECT_TRUE(variant.name.starts_with("label=")) << variant.name;
   }
   EXPECT_EQ(dag.variants[0].name, "label=a_b");
   EXPECT_EQ(dag.variants[1].name, "label=a_b~2");

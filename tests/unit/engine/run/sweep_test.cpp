@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <ctime>
+#include <utility>
 
 #include "ballflow/history.hpp"
 #include "ballflow/report.hpp"
@@ -130,7 +131,7 @@ TEST_F(SweepRun, a_thousand_variants_cost_milliseconds) {
   std::string values = "0";
   for (int i = 1; i < 1000; ++i) values += "," + std::to_string(i);
   const std::string sections = R"("sweep": {"axes": {"by": [)" + values + "]}},";
-  const auto cpu = [last = std::clock()]() mutable {
+  auto cpu = [last = std::clock()]() mutable {
     const std::clock_t now = std::clock();
     const double seconds = static_cast<double>(now - std::exchange(last, now)) / CLOCKS_PER_SEC;
     return seconds * 1e3;
