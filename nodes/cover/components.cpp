@@ -2,6 +2,7 @@
 
 #include <boost/pending/disjoint_sets.hpp>
 #include <numeric>
+#include <utility>
 
 namespace ballflow::geometry {
 
@@ -37,6 +38,63 @@ Components components(const CoverState& state) {
     if (!row.empty()) ++result.rows[static_cast<std::size_t>(result.of_row.back())];
   }
   return result;
+}
+
+namespace {
+
+/// The members of each group, ascending. Negative groups are left out.
+Csr members(const std::vector<std::int32_t>& group_of, const std::vector<std::int32_t>& sizes) {
+  std::vector<std::int64_t> offsets(sizes.size() + 1);
+  for (std::size_t g = 0; g < sizes.size(); ++g) offsets[g + 1] = offsets[g] + sizes[g];
+  std::vector<std::int64_t> next(offsets.begin(), offsets.end() - 1);
+  std::vector<std::int32_t> entries(static_cast<std::size_t>(offsets.back()));
+  for (std::size_t i = 0; i < group_of.size(); ++i) {
+    if (group_of[i] < 0) continue;
+    const auto g = static_cast<std::size_t>(group_of[i]);
+    entries[static_cast<std::size_t>(next[g]++)] = static_cast<std::int32_t>(i);
+  }
+  return {std::move(offsets), std::move(entries)};
+}
+
+}  // namespace
+
+Parts::Parts(const CoverState& state)
+    : state_(state),
+      components_(components(state)),
+      rows_(members(components_.of_row, components_.rows)),
+      columns_(members(components_.of_column, components_.columns)),
+      number_(state.cols()) {
+  for (std::size_t k = 0; k < count(); ++k) {
+    std::int32_t next = 0;
+    for (const std::int32_t c : columns(k)) number_[static_cast<std::size_t>(c)] = next++;
+  }
+}
+
+std::int32_t Parts::whole_row(std::size_t k) const {
+  for (const std::int32_t i : rows(k)) {
+    if (state_.row(static_cast<std::size_t>(i)).size() == columns(k).size()) return i;
+  }
+  return -1;
+}
+
+Part Parts::part(std::size_t k) const {
+  Part part{{rows(k).begin(), rows(k).end()}, {columns(k).begin(), columns(k).end()}, {}, {}};
+  std::vector<std::int64_t> offsets{0};
+  std::size_t size = 0;
+  for (const std::int32_t i : part.row_ids) {
+    size += state_.row(static_cast<std::size_t>(i)).size();
+    offsets.push_back(static_cast<std::int64_t>(size));
+  }
+  std::vector<std::int32_t> entries;
+  entries.reserve(size);
+  for (const std::int32_t i : part.row_ids) {
+    for (const std::int32_t c : state_.row(static_cast<std::size_t>(i))) {
+      entries.push_back(number_[static_cast<std::size_t>(c)]);
+    }
+  }
+  part.rows = {std::move(offsets), std::move(entries)};
+  part.columns = transpose(part.rows, part.column_ids.size());
+  return part;
 }
 
 }  // namespace ballflow::geometry

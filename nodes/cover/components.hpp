@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "cover/residual.hpp"
 #include "types/cover_state.hpp"
 
 namespace ballflow::geometry {
@@ -20,5 +21,32 @@ struct Components {
 };
 
 Components components(const CoverState& state);
+
+/// One component as a matrix of its own: row i of it is row row_ids[i] of the whole, column c is column
+/// column_ids[c]; both ascend.
+struct Part {
+  std::vector<std::int32_t> row_ids, column_ids;
+  Csr rows, columns;
+};
+
+/// The components one by one, without looking at the whole matrix for each.
+class Parts {
+ public:
+  explicit Parts(const CoverState& state);
+
+  std::size_t count() const { return components_.count(); }
+  std::span<const std::int32_t> rows(std::size_t k) const { return rows_[k]; }
+  std::span<const std::int32_t> columns(std::size_t k) const { return columns_[k]; }
+  /// A row of component k that covers all of it, the first; -1 if there is none.
+  std::int32_t whole_row(std::size_t k) const;
+  /// Safe to call from several threads at once.
+  Part part(std::size_t k) const;
+
+ private:
+  const CoverState& state_;
+  Components components_;
+  Csr rows_, columns_;                // of each component
+  std::vector<std::int32_t> number_;  // of each column in its component
+};
 
 }  // namespace ballflow::geometry

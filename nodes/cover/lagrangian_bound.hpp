@@ -1,0 +1,40 @@
+// A lower bound on any cover by Lagrangian relaxation, with a certificate of integers.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cover/components.hpp"
+#include "types/cover_state.hpp"
+#include "types/monitor.hpp"
+
+namespace ballflow::geometry {
+
+struct LagrangianBoundOptions {
+  std::int64_t iterations = 1500;  // at most, for each component; 0 only spreads prices greedily
+  double momentum = 0.95;      // share of the previous direction in the next one; 0 is the plain subgradient
+  std::int64_t patience = 30;  // iterations without a better bound before the step gets shorter
+  double shrink = 0.7;         // factor of the step then
+};
+
+/// Relaxes the covering constraints of every connected component with multipliers u_j >= 0 of its samples:
+///
+///   L(u) = sum_j u_j + sum_i min(0, 1 - sum_(j in i) u_j)  <=  size of any cover of the component,
+///
+/// and climbs L by subgradients with momentum. The best u become integer prices: rounded down to multiples of
+/// 1 / price_unit, lowered where a ball would cost more than 1, then raised again where all balls of a sample
+/// have room. They go through `prove` (certificate.hpp): rounding up component by component, the certificate
+/// proves the bound on the original balls and samples.
+///
+/// - The bound ends near the linear programming bound (3.5 without integrality), never above it but for the
+///   rounding up. The plain rule (momentum 0) stalls far below.
+/// - Nothing is chosen, the matrix stays. Time O(entries) per iteration, memory 8 bytes per entry.
+/// - Components are handled in parallel; the result does not depend on the number of threads.
+CoverState lagrangian_bound(const CoverState& state, const LagrangianBoundOptions& options = {},
+                            Monitor& monitor = no_monitor());
+
+/// Prices of the columns of one component, in 1 / price_unit: no row costs more than 1.
+std::vector<std::int32_t> lagrangian_prices(const Part& part, const LagrangianBoundOptions& options,
+                                            Monitor& monitor);
+
+}  // namespace ballflow::geometry

@@ -1,0 +1,41 @@
+// Covers of few balls by local search with weighted rows (Gao, Weise and Li 2015, "RWLS").
+#pragma once
+
+#include <cstdint>
+
+#include "types/cover_state.hpp"
+#include "types/monitor.hpp"
+
+namespace ballflow::geometry {
+
+struct LocalSearchOptions {
+  double steps_per_ball = 300;           // of the matrix
+  double work_per_ball = 15'000;         // matrix entries visited: a step visits an average row and column
+  std::int64_t min_steps = 200'000;      // for the whole matrix, also when it has few balls
+  std::int64_t max_steps = 100'000'000;  // for the whole matrix; 0 is greedy without redundant balls
+  double target_gap = 0;                 // stop when (balls - lower bound) / lower bound is at most this
+  std::int64_t seed = 1;
+};
+
+/// Covers what is left of the matrix, component by component; the balls are marked Choice::searched.
+///
+/// A component starts from the greedy cover without its redundant balls. A step drops the ball whose loss is
+/// least, takes one of the samples that are now uncovered at random, and adds the ball that gains most among
+/// those that cover it. Gain and loss are sums of sample weights, and the weight of a sample grows with
+/// every step that leaves it uncovered. Among equals the ball goes that was moved longest ago; the ball that
+/// was added last is not dropped, the one that was dropped last is not added. Whenever everything is covered,
+/// the cover is recorded and one ball more is dropped.
+///
+/// - A step takes about a microsecond, in dense matrices a few. Their number is steps_per_ball * rows, or
+///   work_per_ball * rows / (mean length of rows + mean length of columns) if that is less; at least
+///   min_steps and at most max_steps. Components share them in proportion to their rows. No clock: equal
+///   input gives equal balls.
+/// - A component whose balls are as few as the prices of its samples prove stops at once (run
+/// lagrangian_bound
+///   before), and everything stops when the gap is at most target_gap.
+/// - Components are searched in parallel; the result does not depend on the number of threads.
+/// - The lower bound stays what it was.
+CoverState local_search(const CoverState& state, const LocalSearchOptions& options = {},
+                        Monitor& monitor = no_monitor());
+
+}  // namespace ballflow::geometry

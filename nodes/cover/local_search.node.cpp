@@ -1,0 +1,65 @@
+#include "cover/local_search.hpp"
+
+#include <ballflow/sdk.hpp>
+
+#include "types/artifact_types.hpp"
+
+namespace ballflow::nodes {
+namespace {
+
+using namespace geometry;
+
+struct LocalSearch {
+  In<CoverState> cover;
+  Out<CoverState> covered;
+  LocalSearchOptions options;
+
+  static void declare(NodeDecl<LocalSearch>& d) {
+    d.id("LocalSearch", 1).summary("Cover what is left by few balls: greedy, then local search.");
+    d.doc(
+        "Row-weighting local search on every connected component. Ends early where the certificate proves "
+        "that fewer balls are impossible, so run LagrangianBound before. The number of steps is limited, not "
+        "the "
+        "time: equal input gives equal balls.");
+    d.avoid_when("nothing was reduced: the search then spends its steps on dominated balls.");
+    d.cites("gao2015", "3");
+    d.input("cover", &LocalSearch::cover).doc("any state of a set covering computation, best after Reduce");
+    d.output("cover", &LocalSearch::covered).doc("a cover; lower bound and certificate as before");
+    d.param("steps_per_ball", &LocalSearch::options, &LocalSearchOptions::steps_per_ball)
+        .unit("steps")
+        .at_least(0)
+        .doc("steps for each ball that is left in the matrix; a step takes a microsecond or a few");
+    d.param("work_per_ball", &LocalSearch::options, &LocalSearchOptions::work_per_ball)
+        .unit("matrix entries")
+        .at_least(0)
+        .doc("bounds the same in entries visited, for dense matrices, where a step takes longer");
+    d.param("min_steps", &LocalSearch::options, &LocalSearchOptions::min_steps)
+        .unit("steps")
+        .at_least(0)
+        .doc("for the whole matrix, however few balls are left");
+    d.param("max_steps", &LocalSearch::options, &LocalSearchOptions::max_steps)
+        .unit("steps")
+        .at_least(0)
+        .doc("for the whole matrix; 0 is greedy without redundant balls");
+    d.param("target_gap", &LocalSearch::options, &LocalSearchOptions::target_gap)
+        .unit("fraction of the lower bound")
+        .at_least(0)
+        .doc("stops when the balls exceed the lower bound by no more; 0 stops only at the bound");
+    d.param("seed", &LocalSearch::options, &LocalSearchOptions::seed)
+        .unit("number")
+        .at_least(0)
+        .doc("other seeds find other covers of about the same size");
+    d.memory(1 << 20, 3.0);
+  }
+
+  void run(RunContext& context) {
+    ContextMonitor monitor(context);
+    covered = local_search(*cover, options, monitor);
+  }
+};
+
+}  // namespace
+
+const bf_node* local_search_entry() { return node_entry<LocalSearch>(); }
+
+}  // namespace ballflow::nodes

@@ -1,0 +1,207 @@
+#include "cover/weighting_search.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace ballflow::geometry {
+namespace {
+
+constexpr std::int64_t no_key = std::numeric_limits<std::int64_t>::max();
+constexpr std::size_t block = 64;  // slots; for covers of 1000 to 10 000 rows
+
+constexpr std::int64_t loss_unit = std::int64_t{1} << 32;  // of a key
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+WeightingSearch::WeightingSearch(Part part, const std::vector<std::int32_t>& cover, std::int64_t bound,
+                                 std::uint64_t seed)
+    : part_(std::move(part)),
+      bound_(bound),
+      random_(seed),
+      rows_(part_.rows.size()),
+      columns_(part_.columns.size()),
+      slot_of_(part_.rows.size(), -1),
+      row_in_(cover.size(), -1),
+      keys_(cover.size(), no_key),
+      least_key_((cover.size() + block - 1) / block, no_key),
+      least_slot_(least_key_.size(), -1),
+      best_(cover) {
+  weight_sum_ = static_cast<std::int64_t>(columns_.size());
+  uncovered_.reserve(columns_.size());
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    columns_[c].place = static_cast<Id>(c);
+    uncovered_.push_back(static_cast<Id>(c));
+  }
+  for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].gain = static_cast<Id>(part_.rows.degree(i));
+  for (std::size_t s = cover.size(); s > 0; --s) free_.push_back(static_cast<Id>(s - 1));
+  std::sort(best_.begin(), best_.end());
+  for (const Id row : best_) add(row);
+}
+
+void WeightingSearch::change_loss(Id slot, std::int32_t by) {
+  const std::int64_t key = keys_[at(slot)] += by * loss_unit;
+  const std::size_t b = at(slot) / block;
+  if (key < least_key_[b]) {
+    least_key_[b] = key;
+    least_slot_[b] = slot;
+  } else if (slot == least_slot_[b]) {
+    find_least(b, -1);
+  }
+}
+
+void WeightingSearch::find_least(std::size_t b, std::int32_t except) {
+  std::int64_t key = no_key;
+  std::size_t slot = b * block;
+  for (std::size_t s = b * block; s < std::min(keys_.size(), (b + 1) * block); ++s) {
+    if (keys_[s] < key && static_cast<Id>(s) != except) {
+      key = keys_[s];
+      slot = s;
+    }
+  }
+  least_key_[b] = key;
+  least_slot_[b] = static_cast<Id>(slot);
+}
+
+void WeightingSearch::add(Id row) {
+  const Id slot = free_.back();
+  free_.pop_back();
+  std::int32_t loss = 0;
+  for (const Id c : part_.rows[at(row)]) {
+    Column& column = columns_[at(c)];
+    if (++column.times == 1) {
+      loss += column.weight;
+      for (const Id other : part_.columns[at(c)]) rows_[at(other)].gain -= column.weight;
+      const Id last = uncovered_.back();
+      uncovered_[at(column.place)] = last;
+      columns_[at(last)].place = column.place;
+      uncovered_.pop_back();
+    } else if (column.times == 2) {
+      change_loss(column.keepers, -column.weight);
+    }
+    column.keepers ^= slot;
+  }
+  rows_[at(row)].moved = step_;
+  slot_of_[at(row)] = slot;
+  row_in_[at(slot)] = row;
+  keys_[at(slot)] = loss * loss_unit + step_;
+  const std::size_t b = at(slot) / block;
+  if (keys_[at(slot)] < least_key_[b]) {
+    least_key_[b] = keys_[at(slot)];
+    least_slot_[b] = slot;
+  }
+  ++size_;
+}
+
+void WeightingSearch::drop(Id row) {
+  const Id slot = slot_of_[at(row)];
+  slot_of_[at(row)] = -1;
+  row_in_[at(slot)] = -1;
+  keys_[at(slot)] = no_key;
+  free_.push_back(slot);
+  if (least_slot_[at(slot) / block] == slot) find_least(at(slot) / block, -1);
+  --size_;
+  rows_[at(row)].moved = step_;
+  for (const Id c : part_.rows[at(row)]) {
+    Column& column = columns_[at(c)];
+    column.keepers ^= slot;
+    if (--column.times == 0) {
+      for (const Id other : part_.columns[at(c)]) rows_[at(other)].gain += column.weight;
+      column.place = static_cast<Id>(uncovered_.size());
+      uncovered_.push_back(c);
+    } else if (column.times == 1) {
+      change_loss(column.keepers, column.weight);
+    }
+  }
+}
+
+WeightingSearch::Id WeightingSearch::least_loss() {
+  // The tabu row hides from its block while the others are compared.
+  const Id tabu = last_added_ < 0 ? -1 : slot_of_[at(last_added_)];
+  const std::size_t tabu_block = tabu < 0 ? least_key_.size() : at(tabu) / block;
+  const bool hidden = tabu >= 0 && least_slot_[tabu_block] == tabu;
+  if (hidden) find_least(tabu_block, tabu);
+  const auto least = std::min_element(least_key_.begin(), least_key_.end()) - least_key_.begin();
+  const bool none = least_key_[static_cast<std::size_t>(least)] == no_key;
+  const Id row = none ? last_added_ : row_in_[at(least_slot_[static_cast<std::size_t>(least)])];
+  if (hidden) find_least(tabu_block, -1);
+  return row;
+}
+
+WeightingSearch::Id WeightingSearch::best_gain(Id column) const {
+  Id best = -1;
+  for (const Id row : part_.columns[at(column)]) {
+    if (row == last_dropped_) continue;
+    const Row& candidate = rows_[at(row)];
+    if (best < 0 || candidate.gain > rows_[at(best)].gain ||
+        (candidate.gain == rows_[at(best)].gain && candidate.moved < rows_[at(best)].moved)) {
+      best = row;
+    }
+  }
+  return best < 0 ? last_dropped_ : best;
+}
+
+void WeightingSearch::weigh_uncovered() {
+  for (const Id c : uncovered_) {
+    ++columns_[at(c)].weight;
+    for (const Id row : part_.columns[at(c)]) ++rows_[at(row)].gain;
+  }
+  weight_sum_ += static_cast<std::int64_t>(uncovered_.size());
+  if (weight_sum_ >= std::int64_t{1} << 30) halve_weights();
+}
+
+void WeightingSearch::halve_weights() {
+  weight_sum_ = 0;
+  for (Row& row : rows_) row.gain = 0;
+  for (std::int64_t& key : keys_) {
+    if (key != no_key) key &= loss_unit - 1;
+  }
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    Column& column = columns_[c];
+    column.weight = (column.weight + 1) / 2;
+    weight_sum_ += column.weight;
+    if (column.times == 0) {
+      for (const Id row : part_.columns[c]) rows_[at(row)].gain += column.weight;
+    } else if (column.times == 1) {
+      keys_[at(column.keepers)] += column.weight * loss_unit;
+    }
+  }
+  for (std::size_t b = 0; b < least_key_.size(); ++b) find_least(b, -1);
+}
+
+std::size_t WeightingSearch::random_below(std::size_t n) {
+  // splitmix64
+  std::uint64_t z = random_ += 0x9e3779b97f4a7c15u;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return static_cast<std::size_t>(((z ^ (z >> 31)) >> 32) * n >> 32);
+}
+
+void WeightingSearch::run(std::int64_t steps, Monitor& monitor) {
+  for (std::int64_t k = 0; k < steps; ++k) {
+    if (k % 1024 == 0 && monitor.cancelled()) throw Cancelled();
+    while (uncovered_.empty()) {
+      if (size_ < best_.size()) {
+        best_.clear();
+        std::copy_if(row_in_.begin(), row_in_.end(), std::back_inserter(best_),
+                     [](Id row) { return row >= 0; });
+        std::sort(best_.begin(), best_.end());
+      }
+      if (proven()) return;
+      last_added_ = -1;
+      drop(least_loss());
+    }
+    ++step_;
+    const Id dropped = least_loss();
+    drop(dropped);
+    last_dropped_ = dropped;
+    const Id added = best_gain(uncovered_[random_below(uncovered_.size())]);
+    add(added);
+    last_added_ = added;
+    weigh_uncovered();
+  }
+}
+
+}  // namespace ballflow::geometry

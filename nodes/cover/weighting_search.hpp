@@ -1,0 +1,72 @@
+// The search behind local_search, for one component.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "cover/components.hpp"
+#include "types/monitor.hpp"
+
+namespace ballflow::geometry {
+
+class WeightingSearch {
+ public:
+  /// `cover` is any cover of `part` without redundant rows, `bound` no more than the smallest one.
+  WeightingSearch(Part part, const std::vector<std::int32_t>& cover, std::int64_t bound, std::uint64_t seed);
+
+  /// Goes on for `steps` steps, or until the best cover has `bound` rows.
+  void run(std::int64_t steps, Monitor& monitor);
+
+  bool proven() const { return static_cast<std::int64_t>(best_.size()) <= bound_; }
+  /// The smallest cover met: rows of the part, ascending.
+  const std::vector<std::int32_t>& best() const { return best_; }
+  const Part& part() const { return part_; }
+
+ private:
+  using Id = std::int32_t;
+
+  struct Row {
+    std::int32_t gain = 0;   // weight of the uncovered columns it covers; only while it is outside the cover
+    std::int32_t moved = 0;  // step in which it was added or dropped last
+  };
+  struct Column {
+    std::int32_t times = 0;  // how many rows of the cover cover it
+    Id keepers = 0;          // exclusive or of their slots: the slot itself while there is one
+    std::int32_t weight = 1;
+    Id place = -1;  // in uncovered_
+  };
+
+  void add(Id row);
+  void drop(Id row);
+  void change_loss(Id slot, std::int32_t by);
+  void find_least(std::size_t block, std::int32_t except);
+  Id least_loss();
+  Id best_gain(Id column) const;
+  void weigh_uncovered();
+  void halve_weights();
+  std::size_t random_below(std::size_t n);
+
+  Part part_;
+  std::int64_t bound_;
+  std::uint64_t random_;
+  std::int32_t step_ = 0;
+  std::int64_t weight_sum_ = 0;
+  Id last_added_ = -1, last_dropped_ = -1;
+  std::vector<Row> rows_;
+  std::vector<Column> columns_;
+  std::vector<Id> uncovered_;
+
+  // The cover in slots; a slot's key is its row's loss and, in the low bits, when the row was moved last:
+  // the least key is dropped. Blocks of slots know their least slot.
+  std::vector<Id> slot_of_;              // of each row, -1 outside the cover
+  std::vector<Id> row_in_;               // of each slot, -1 when it is free
+  std::vector<std::int64_t> keys_;       // of each slot
+  std::vector<Id> free_;                 // slots
+  std::vector<std::int64_t> least_key_;  // of each block
+  std::vector<Id> least_slot_;
+  std::size_t size_ = 0;
+  std::vector<Id> best_;
+};
+
+}  // namespace ballflow::geometry
