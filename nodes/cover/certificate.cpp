@@ -1,5 +1,7 @@
 #include "cover/certificate.hpp"
 
+#include <boost/pending/disjoint_sets.hpp>
+#include <numeric>
 #include <utility>
 
 #include "cover/residual.hpp"
@@ -59,6 +61,44 @@ std::int64_t PricedGroups::bound() const {
     bound += (sum + price_unit - 1) / price_unit;
   }
   return bound;
+}
+
+PricedGroups priced_groups(const CoverState& state, const std::vector<std::int32_t>& price) {
+  const std::size_t columns = state.cols();
+  std::vector<std::int32_t> rank(columns), parent(columns);
+  std::iota(parent.begin(), parent.end(), 0);
+  boost::disjoint_sets sets(rank.data(), parent.data());
+  for (std::size_t i = 0; i < state.rows(); ++i) {
+    std::int32_t first = -1;
+    for (const std::int32_t c : state.row(i)) {
+      if (price[static_cast<std::size_t>(c)] == 0) continue;
+      if (first < 0) {
+        first = c;
+      } else {
+        sets.union_set(first, c);
+      }
+    }
+  }
+  // Groups in the order of their first columns.
+  std::vector<std::vector<std::int32_t>> members;
+  std::vector<std::int32_t> number(columns, -1);
+  for (std::size_t c = 0; c < columns; ++c) {
+    if (price[c] == 0) continue;
+    std::int32_t& group = number[static_cast<std::size_t>(sets.find_set(static_cast<std::int32_t>(c)))];
+    if (group < 0) {
+      group = static_cast<std::int32_t>(members.size());
+      members.emplace_back();
+    }
+    members[static_cast<std::size_t>(group)].push_back(static_cast<std::int32_t>(c));
+  }
+  PricedGroups groups;
+  for (const auto& group : members) {
+    for (const std::int32_t c : group) {
+      groups.add(state.column_ids[static_cast<std::size_t>(c)], price[static_cast<std::size_t>(c)]);
+    }
+    groups.close();
+  }
+  return groups;
 }
 
 void settle(CoverState& state, const PricedGroups& groups) {

@@ -4,7 +4,7 @@
 // that were left, only samples of a ball that stayed or was chosen (chains of dominated balls end in one of
 // these), and a chosen ball meets no sample that is left. So whatever the residual's balls may contain
 // without breaking conditions (1) and (2), no other ball of the original instance contains more of it.
-//   - The residual: any prices under which no row costs more than 1, one group for each component.
+//   - The residual: any prices under which no row costs more than 1, in groups that no row joins.
 //   - An essential ball: the sample that only it covered, price 1. When it was chosen, every ball that
 //     contains this sample was dominated by it, and met nothing that was left after the choice.
 //   - A component solved exactly: prices of its own columns, one group.
@@ -31,6 +31,11 @@ struct PricedGroups {
 
   std::int64_t bound() const;  // sum over the groups of ceil(sum of prices)
 };
+
+/// Groups of the columns of the matrix that have a price, as small as condition (2) allows: two columns are
+/// in one group if a row contains both, or a chain of such pairs connects them. Columns of price 0 connect
+/// nothing, so there may be more groups than components, and each is rounded up.
+PricedGroups priced_groups(const CoverState& state, const std::vector<std::int32_t>& price);
 
 /// Takes over groups about samples that essential or exact choices have just taken out of the matrix. Groups
 /// about the matrix as it was before are dropped, unless the certificate proves more with them: then the

@@ -144,16 +144,14 @@ CoverState lagrangian_bound(const CoverState& state, const LagrangianBoundOption
     entries_done += part.rows.entries.size();
     monitor.step(static_cast<double>(entries_done) / static_cast<double>(state.nnz()));
   });
-  PricedGroups groups;
+  std::vector<std::int32_t> price(state.cols());
   for (std::size_t k = 0; k < parts.count(); ++k) {
-    const auto columns = parts.columns(k);
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-      groups.add(state.column_ids[static_cast<std::size_t>(columns[c])], prices[k][c]);
+    for (std::size_t c = 0; c < prices[k].size(); ++c) {
+      price[static_cast<std::size_t>(parts.columns(k)[c])] = prices[k][c];
     }
-    groups.close();
   }
   CoverState next = state;
-  prove(next, groups);
+  prove(next, priced_groups(state, price));
   monitor.step(1);
   return next;
 }

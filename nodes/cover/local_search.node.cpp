@@ -36,10 +36,12 @@ struct LocalSearch {
     d.param("min_steps", &LocalSearch::options, &LocalSearchOptions::min_steps)
         .unit("steps")
         .at_least(0)
+        .at_most(2'000'000'000)
         .doc("for the whole matrix, however few balls are left");
     d.param("max_steps", &LocalSearch::options, &LocalSearchOptions::max_steps)
         .unit("steps")
         .at_least(0)
+        .at_most(2'000'000'000)
         .doc("for the whole matrix; 0 is greedy without redundant balls");
     d.param("target_gap", &LocalSearch::options, &LocalSearchOptions::target_gap)
         .unit("fraction of the lower bound")

@@ -5,6 +5,7 @@
 
 #include "types/balls.hpp"
 #include "types/cover_check.hpp"
+#include "types/cover_state.hpp"
 #include "types/monitor.hpp"
 #include "types/point_set.hpp"
 
@@ -25,5 +26,14 @@ struct VerifyCoverOptions {
 /// Accepts and refuses the coordinates and defining samples that cover_matrix does.
 CoverCheck verify_cover(const Balls& balls, const PointSet& points, const VerifyCoverOptions& options = {},
                         Monitor& monitor = no_monitor());
+
+/// Checks the certificate of `cover` (see CoverState) from geometry: conditions (1) and (2) for each of
+/// `candidates`, the balls of the instance, and the samples in `points`. Nothing else of `cover` is believed.
+/// Returns the number of balls that every cover by `candidates` needs.
+///
+/// Refused with InputError: a certificate that is malformed, that is about other numbers of balls and
+/// samples, or that breaks a condition, naming the ball; a lower bound that is called certified and is not.
+std::int64_t verify_certificate(const CoverState& cover, const Balls& candidates, const PointSet& points,
+                                Monitor& monitor = no_monitor());
 
 }  // namespace ballflow::geometry

@@ -12,20 +12,35 @@ using namespace geometry;
 struct VerifyCover {
   In<Balls> balls;
   In<PointSet> points;
+  In<CoverState> cover;
+  In<Balls> candidates;
   Out<CoverCheck> check;
   VerifyCoverOptions options;
 
   static void declare(NodeDecl<VerifyCover>& d) {
-    d.id("VerifyCover", 1).summary("Check from geometry that every sample lies in a ball.");
+    d.id("VerifyCover", 2)
+        .summary(
+            "Check from geometry that every sample lies in a ball, and that no cover has fewer than proved.");
     d.doc(
         "Uses nothing of the covering matrix but the definition of its entries, so it also checks balls of "
         "other "
-        "origin. Covering the samples is not covering the surface between them.");
+        "origin. With the cover and the balls of its covering matrix it also checks the certificate of the "
+        "lower "
+        "bound: no ball may contain samples that cost more than 1 or belong to two groups. A certificate "
+        "that "
+        "breaks this is refused. Covering the samples is not covering the surface between them.");
     d.avoid_when("the error between samples is asked: it looks at the samples alone");
     d.cites("kornberger2010", "3.6.1");
     d.input("balls", &VerifyCover::balls).doc("the selected balls");
     d.input("points", &VerifyCover::points).doc("samples that should be covered");
-    d.output("check", &VerifyCover::check).doc("the samples in no ball");
+    d.input("cover", &VerifyCover::cover)
+        .optional()
+        .doc("how they were chosen, with the certificate to be checked");
+    d.input("candidates", &VerifyCover::candidates)
+        .optional()
+        .doc("the balls of the covering matrix, among which they were chosen; goes with cover");
+    d.output("check", &VerifyCover::check)
+        .doc("the samples in no ball, and the bound that the certificate proves");
     d.choice("on_uncovered", &VerifyCover::options, &VerifyCoverOptions::on_uncovered,
              {{OnUncovered::error, "error", "the node fails and names the first sample"},
               {OnUncovered::report, "report", "the samples are listed in the result"}})
@@ -35,7 +50,15 @@ struct VerifyCover {
 
   void run(RunContext& context) {
     ContextMonitor monitor(context);
-    check = verify_cover(*balls, *points, options, monitor);
+    if (static_cast<bool>(cover) != static_cast<bool>(candidates)) {
+      throw InputError("only one of cover and candidates is connected",
+                       "connect both to check a certificate, or none");
+    }
+    CoverCheck result = verify_cover(*balls, *points, options, monitor);
+    if (cover) {
+      result.certified_bound = verify_certificate(*cover, *candidates, *points, monitor);
+    }
+    check = std::move(result);
   }
 };
 

@@ -17,10 +17,11 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
 WeightingSearch::WeightingSearch(Part part, const std::vector<std::int32_t>& cover, std::int64_t bound,
-                                 std::uint64_t seed)
+                                 std::uint64_t seed, std::int64_t weight_limit)
     : part_(std::move(part)),
       bound_(bound),
       random_(seed),
+      weight_limit_(weight_limit),
       rows_(part_.rows.size()),
       columns_(part_.columns.size()),
       slot_of_(part_.rows.size(), -1),
@@ -149,7 +150,7 @@ void WeightingSearch::weigh_uncovered() {
     for (const Id row : part_.columns[at(c)]) ++rows_[at(row)].gain;
   }
   weight_sum_ += static_cast<std::int64_t>(uncovered_.size());
-  if (weight_sum_ >= std::int64_t{1} << 30) halve_weights();
+  if (weight_sum_ >= weight_limit_) halve_weights();
 }
 
 void WeightingSearch::halve_weights() {

@@ -13,7 +13,9 @@ namespace ballflow::geometry {
 class WeightingSearch {
  public:
   /// `cover` is any cover of `part` without redundant rows, `bound` no more than the smallest one.
-  WeightingSearch(Part part, const std::vector<std::int32_t>& cover, std::int64_t bound, std::uint64_t seed);
+  /// Weights are halved when their sum reaches `weight_limit`, so that all sums of them fit 31 bits.
+  WeightingSearch(Part part, const std::vector<std::int32_t>& cover, std::int64_t bound, std::uint64_t seed,
+                  std::int64_t weight_limit = std::int64_t{1} << 30);
 
   /// Goes on for `steps` steps, or until the best cover has `bound` rows.
   void run(std::int64_t steps, Monitor& monitor);
@@ -51,7 +53,7 @@ class WeightingSearch {
   std::int64_t bound_;
   std::uint64_t random_;
   std::int32_t step_ = 0;
-  std::int64_t weight_sum_ = 0;
+  std::int64_t weight_limit_, weight_sum_ = 0;
   Id last_added_ = -1, last_dropped_ = -1;
   std::vector<Row> rows_;
   std::vector<Column> columns_;

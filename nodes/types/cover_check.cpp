@@ -5,6 +5,7 @@ namespace ballflow::geometry {
 std::string broken_invariant(const CoverCheck& check) {
   if (check.balls < 0) return "the number of balls is " + std::to_string(check.balls);
   if (check.samples < 0) return "the number of samples is " + std::to_string(check.samples);
+  if (check.certified_bound < -1) return "the certified bound is " + std::to_string(check.certified_bound);
   std::int64_t previous = -1;
   for (std::size_t i = 0; i < check.uncovered.size(); ++i) {
     const std::int64_t sample = check.uncovered[i];

@@ -124,6 +124,11 @@ std::string broken_certificate(const CoverState& state) {
     return "settled_groups = " + std::to_string(state.settled_groups) + " is not in [0, " +
            std::to_string(group + 1) + "], the number of groups";
   }
+  if (state.lower_bound_how == static_cast<std::uint8_t>(BoundHow::certified) &&
+      state.lower_bound > state.certified_bound()) {
+    return "lower_bound = " + std::to_string(state.lower_bound) +
+           " is called certified, but the certificate claims " + std::to_string(state.certified_bound());
+  }
   if (listed > 0 && state.certified_bound() > state.lower_bound) {
     return "lower_bound = " + std::to_string(state.lower_bound) + " is less than its certificate claims, " +
            std::to_string(state.certified_bound());

@@ -94,6 +94,7 @@ TEST(cover_state, every_broken_invariant_is_named) {
             std::string::npos);
   EXPECT_NE(broken([](auto& s) { s.settled_groups = 3; }).find("settled_groups"), std::string::npos);
   EXPECT_NE(broken([](auto& s) { s.settled_groups = -1; }).find("settled_groups"), std::string::npos);
+  EXPECT_NE(broken([](auto& s) { s.lower_bound = 3; }).find("called certified"), std::string::npos);
   EXPECT_NE(broken([](auto& s) { s.lower_bound = 1; }).find("certificate claims, 2"), std::string::npos);
 }
 

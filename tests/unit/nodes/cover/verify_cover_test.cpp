@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "cover/cover_matrix.hpp"
+#include "cover/greedy.hpp"
+#include "cover/lagrangian_bound.hpp"
+#include "cover/local_search.hpp"
+#include "cover/reduce.hpp"
 #include "cover_oracle.hpp"
 
 namespace ballflow::geometry {
@@ -74,6 +78,178 @@ TEST(verify_cover, finds_samples_far_from_a_dense_cluster) {
   samples.push_back({1e6, 1e6, -1e6});
   const Balls balls{{{1e-3, 0, 0}}, {2e-3}, {}, {}};
   EXPECT_EQ(verify_cover(balls, {samples, {}}, report).uncovered, (Array<std::int32_t>{2000}));
+}
+
+/// A pruned torus: its balls, samples, and a state with essential balls and a large component.
+struct Pruned {
+  Balls balls;
+  PointSet points;
+  CoverState cover;
+};
+
+Pruned pruned_torus(std::uint32_t seed) {
+  const test::Scene scene = test::torus(1500, 0.02, seed);
+  const CoverMatrix matrix = cover_matrix(scene.balls, scene.points);
+  return {matrix.balls, scene.points, lagrangian_bound(reduce(matrix.cover))};
+}
+
+TEST(verify_certificate, confirms_from_geometry_what_the_strategy_claims) {
+  for (const std::uint32_t seed : {1u, 2u, 3u}) {
+    const Pruned p = pruned_torus(seed);
+    ASSERT_GT(p.cover.settled_groups, 0);
+    EXPECT_EQ(verify_certificate(p.cover, p.balls, p.points), p.cover.lower_bound);
+    const CoverState covered = local_search(p.cover, {.min_steps = 1000});
+    EXPECT_EQ(verify_certificate(covered, p.balls, p.points), covered.lower_bound);
+    EXPECT_LT(*covered.gap(), 0.2);
+  }
+}
+
+TEST(verify_certificate, accepts_a_state_without_a_certificate_and_proves_nothing) {
+  const test::Scene scene = test::torus(200, 0.05, 4);
+  const CoverState cover = greedy(cover_matrix(scene.balls, scene.points).cover);
+  EXPECT_EQ(verify_certificate(cover, scene.balls, scene.points), 0);
+}
+
+std::string refusal(const CoverState& cover, const Balls& balls, const PointSet& points) {
+  try {
+    verify_certificate(cover, balls, points);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(verify_certificate, refuses_prices_that_were_raised_where_a_ball_has_no_room) {
+  const Pruned p = pruned_torus(5);
+  std::mt19937 random(81);
+  std::vector<std::int32_t> prices(p.cover.certificate_prices.begin(), p.cover.certificate_prices.end());
+  // Every price of a Lagrangian certificate is tight: some ball of the sample costs 1.
+  for (int round = 0; round < 60; ++round) {
+    const std::size_t k = random() % prices.size();
+    auto forged = prices;
+    if (forged[k] == price_unit) continue;
+    ++forged[k];
+    CoverState cover = p.cover;
+    cover.certificate_prices = forged;
+    cover.lower_bound = std::max(cover.lower_bound, cover.certified_bound());
+    ASSERT_NE(refusal(cover, p.balls, p.points).find("more than 1"), std::string::npos) << k;
+  }
+}
+
+TEST(verify_certificate, refuses_a_group_that_was_split_to_be_rounded_up_twice) {
+  const Pruned p = pruned_torus(6);
+  const auto& groups = p.cover.certificate_groups;
+  int refused = 0;
+  for (std::size_t k = 1; k < groups.size(); ++k) {
+    if (groups[k] != groups[k - 1]) continue;
+    std::vector<std::int32_t> forged(groups.begin(), groups.end());
+    for (std::size_t i = k; i < forged.size(); ++i) ++forged[i];
+    CoverState cover = p.cover;
+    cover.certificate_groups = forged;
+    cover.lower_bound = std::max(cover.lower_bound, cover.certified_bound());
+    if (cover.certified_bound() == p.cover.certified_bound()) continue;
+    ASSERT_NE(refusal(cover, p.balls, p.points).find("of the groups"), std::string::npos) << k;
+    if (++refused == 40) break;
+  }
+  EXPECT_GT(refused, 0);
+}
+
+TEST(verify_certificate, refuses_more_than_its_prices_prove) {
+  const Pruned p = pruned_torus(7);
+  CoverState cover = p.cover;
+  cover.lower_bound += 1;
+  EXPECT_NE(refusal(cover, p.balls, p.points).find("called certified"), std::string::npos);
+}
+
+TEST(verify_certificate, refuses_another_sample_in_place_of_a_witness) {
+  const Pruned p = pruned_torus(8);
+  std::mt19937 random(82);
+  std::vector<std::int32_t> samples(p.cover.certificate_samples.begin(), p.cover.certificate_samples.end());
+  std::vector<bool> listed(p.points.points.size());
+  for (const std::int32_t s : samples) listed[static_cast<std::size_t>(s)] = true;
+  int refused = 0, tried = 0;
+  for (std::size_t k = 0; k < samples.size() && tried < 50; ++k) {
+    if (p.cover.certificate_prices[k] != price_unit) continue;
+    std::int32_t other = 0;
+    do {
+      other = static_cast<std::int32_t>(random() % listed.size());
+    } while (listed[static_cast<std::size_t>(other)]);
+    auto forged = samples;
+    forged[k] = other;
+    CoverState cover = p.cover;
+    cover.certificate_samples = forged;
+    ++tried;
+    refused += refusal(cover, p.balls, p.points).empty() ? 0 : 1;
+  }
+  EXPECT_GT(tried, 10);
+  EXPECT_GE(refused * 10, tried * 9);  // another sample may be as hard to reach
+}
+
+TEST(verify_certificate, a_mutated_certificate_is_refused_or_still_true) {
+  // Small enough for the optimum: whatever passes must be a true bound.
+  std::mt19937 random(83);
+  int refused = 0, passed = 0;
+  for (int round = 0; round < 3000; ++round) {
+    const auto coordinate = [&] { return 0.25 * static_cast<double>(random() % 9); };
+    std::vector<Vec3> points, centers;
+    std::vector<double> radii;
+    for (int j = 0; j < 14; ++j) points.push_back({coordinate(), coordinate(), 0.1 * j});
+    for (int i = 0; i < 10; ++i) {
+      centers.push_back({coordinate(), coordinate(), 0.7});
+      radii.push_back(0.3 + 0.1 * static_cast<double>(random() % 10));
+    }
+    const Balls balls{centers, radii, {}, {}};
+    const PointSet samples{points, {}};
+    const CoverMatrix matrix = cover_matrix(balls, samples, {.uncovered = UncoveredPolicy::report});
+    const std::int64_t best = test::optimum(matrix.cover);
+    CoverState cover = lagrangian_bound(reduce(matrix.cover));
+    ASSERT_EQ(verify_certificate(cover, balls, samples), cover.certified_bound());
+    if (cover.certificate_samples.empty()) continue;
+    std::vector<std::int32_t> ids(cover.certificate_samples.begin(), cover.certificate_samples.end());
+    std::vector<std::int32_t> prices(cover.certificate_prices.begin(), cover.certificate_prices.end());
+    std::vector<std::int32_t> groups(cover.certificate_groups.begin(), cover.certificate_groups.end());
+    for (std::size_t changes = 1 + random() % 3; changes > 0; --changes) {
+      const std::size_t k = random() % ids.size();
+      switch (random() % 4) {
+        case 0:
+          ids[k] = static_cast<std::int32_t>(random() % 16) - 1;
+          break;
+        case 1:
+          prices[k] = static_cast<std::int32_t>(random() % (price_unit + 2));
+          break;
+        case 2:
+          groups[k] = static_cast<std::int32_t>(random() % 4) - 1;
+          break;
+        default:
+          for (std::size_t i = k; i < groups.size(); ++i) ++groups[i];
+      }
+    }
+    cover.certificate_samples = ids;
+    cover.certificate_prices = prices;
+    cover.certificate_groups = groups;
+    cover.settled_groups = 0;
+    cover.lower_bound = cover.certified_bound();
+    try {
+      ASSERT_LE(verify_certificate(cover, balls, samples), best);
+      ++passed;
+    } catch (const InputError&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 1000);
+  EXPECT_GT(passed, 10);
+}
+
+TEST(verify_certificate, refuses_other_balls_and_samples_than_it_is_about) {
+  const Pruned p = pruned_torus(9);
+  const test::Scene other = test::torus(300, 0.02, 10);
+  EXPECT_NE(refusal(p.cover, other.balls, p.points).find("it is about"), std::string::npos);
+  EXPECT_NE(refusal(p.cover, p.balls, other.points).find("it is about"), std::string::npos);
+  Balls larger = p.balls;
+  std::vector<double> radii;
+  for (const double r : p.balls.radii) radii.push_back(1.5 * r);
+  larger.radii = radii;
+  EXPECT_NE(refusal(p.cover, larger, p.points), "");
 }
 
 }  // namespace
