@@ -306,7 +306,9 @@ RunRecord find_run(Store& store, const std::string& name, const std::string& gra
                 "give more of the id");
   }
   ids.erase(std::remove_if(ids.begin(), ids.end(), [&](const auto& id) { return !recorded(id); }), ids.end());
-  std::string hint = did_you_mean(name, ids);
+  std::vector<std::string> known = ids;
+  known.insert(known.end(), {"latest", "previous"});
+  std::string hint = did_you_mean(name, known);
   if (hint.empty() && !ids.empty())
     hint = "the newest are " + listed(ids, 3) + "; \"ballflow runs\" lists all";
   if (hint.empty()) hint = "name a report file, or run something first";
