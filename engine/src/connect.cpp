@@ -14,8 +14,9 @@ namespace {
 
 class Connector {
  public:
-  Connector(const Expansion& expansion, const Registry& registry, Findings& findings)
-      : expansion_(expansion), findings_(findings) {
+  Connector(const Expansion& expansion, const Registry& registry,
+            const std::map<std::string, ArtifactPtr>& given, Findings& findings)
+      : expansion_(expansion), given_(given), findings_(findings) {
     for (const auto& [id, type] : registry.types()) type_names_.push_back(id);
     for (const auto& [id, node] : registry.nodes()) {
       for (const std::vector<PortDecl>* ports : {&node.inputs, &node.outputs}) {
@@ -33,6 +34,7 @@ class Connector {
 
   Dag run() {
     check_interfaces();
+    check_given();
     edges_.resize(expansion_.leaves.size());
     for (std::size_t i = 0; i < expansion_.scopes.size(); ++i) connect_nodes(i);
     for (const GraphOutput& output : top().outputs) check_reference(0, output.from);
@@ -52,10 +54,10 @@ class Connector {
     return loop != nowhere && expansion_.loops[loop].scope == scope;
   }
 
-  /// What a reference leads to: an output port, an input of the loop around it, an input that is not
-  /// connected, or something reported.
+  /// What a reference leads to: an output port, an input of the loop around it, an artifact from outside, an
+  /// input that is not connected, or something reported.
   struct Target {
-    enum class Kind { broken, unconnected, leaf, loop_input };
+    enum class Kind { broken, unconnected, leaf, loop_input, given };
     Kind kind = Kind::broken;
     std::size_t leaf = 0;
     std::string port;
@@ -81,7 +83,7 @@ class Connector {
           std::string hint = did_you_mean(input.type, type_names_);
           findings_.error(file, input.type_offset, "unknown type " + in_quotes(input.type),
                           hint.empty() ? "types are " + listed(type_names_, 30) : hint);
-        } else if (i == 0 && !input.optional) {
+        } else if (i == 0 && !input.optional && !given_.contains(input.name)) {
           findings_.error(file, input.offset,
                           "input " + in_quotes(input.name) + " (" + input.type + ") is not connected",
                           "a graph with inputs is a subgraph: run a graph that includes it");
@@ -91,6 +93,28 @@ class Connector {
     if (top().outputs.empty() && !top().nodes.empty()) {
       findings_.warning(top(), top().root.offset, "the graph has no \"outputs\"",
                         "name what is wanted: \"outputs\": { \"balls\": \"node.port\" }");
+    }
+  }
+
+  void check_given() {
+    std::vector<std::string> names;
+    for (const GraphInput& input : top().inputs) names.push_back(input.name);
+    for (const auto& [name, artifact] : given_) {
+      const auto known = top().input_index.find(name);
+      if (known == top().input_index.end()) {
+        const std::string hint = did_you_mean(name, names);
+        findings_.error(top(), top().root.offset, "the graph has no input " + in_quotes(name),
+                        !hint.empty()   ? hint
+                        : names.empty() ? "it has no inputs"
+                                        : "inputs are " + listed(names));
+        continue;
+      }
+      const GraphInput& input = top().inputs[known->second];
+      if (!input.broken && input.type != artifact->type()) {
+        findings_.error(top(), input.type_offset,
+                        "input " + in_quotes(name) + " takes a " + input.type + ", but the artifact is a " +
+                            printable(artifact->type()));
+      }
     }
   }
 
@@ -133,6 +157,8 @@ class Connector {
       if (reference->kind == Reference::Kind::input) {
         const GraphInput& input = file_of(scope).inputs[reference->index];
         if (input.broken || !known_type(input.type)) return std::nullopt;
+        const auto given = scope == 0 ? given_.find(input.name) : given_.end();
+        if (given != given_.end()) return PortType{input.type, given->second->version(), false};
         return PortType{input.type, 0, input.optional};
       }
       const Scope::Slot slot = expansion_.scopes[scope].slots[reference->index];
@@ -169,7 +195,7 @@ class Connector {
           if (decl.input(input.port) == nullptr) continue;
           const Target target = resolve(scope, &input.from);
           if (target.kind == Target::Kind::leaf) edges_[slot.index][input.port] = {target.leaf, target.port};
-          if (target.kind == Target::Kind::loop_input)
+          if (target.kind == Target::Kind::loop_input || target.kind == Target::Kind::given)
             edges_[slot.index][input.port] = {loop_input, target.port};
         }
       } else if (slot.kind == Scope::Slot::Kind::scope) {
@@ -317,7 +343,8 @@ class Connector {
       const Scope& here = expansion_.scopes[scope];
       if (reference->kind == Reference::Kind::input) {
         if (here.parent == nowhere) {
-          target.kind = Target::Kind::unconnected;
+          const bool is_given = given_.contains(reference->port);
+          target = {is_given ? Target::Kind::given : Target::Kind::unconnected, 0, reference->port};
           break;
         }
         const GraphNode& inclusion = file_of(here.parent).nodes[here.parent_node];
@@ -458,6 +485,7 @@ class Connector {
     dag.doc = top().doc;
     for (std::size_t i = 0; i < top().params.size(); ++i)
       dag.params[top().params[i].decl.name] = *expansion_.scopes[0].params[i];
+    const std::map<std::string, std::size_t> given = add_given(dag);
     std::vector<std::size_t> place(expansion_.leaves.size());  // in the graph or the loop body around it
     for (const std::size_t i : order) {
       const Leaf& leaf = expansion_.leaves[i];
@@ -469,27 +497,57 @@ class Connector {
       node.decl = leaf.decl;
       node.params = leaf.params;
       if (leaf.loop != nowhere) node.loop = expansion_.loops[leaf.loop].loop;
-      for (const auto& [port, edge] : edges_[i])
-        node.inputs[port] = {edge.node == loop_input ? loop_input : place[edge.node], edge.port};
+      for (const auto& [port, edge] : edges_[i]) {
+        if (edge.node != loop_input) {
+          node.inputs[port] = {place[edge.node], edge.port};
+        } else {
+          node.inputs[port] = around == nowhere ? EdgeRef{given.at(edge.port), edge.port} : edge;
+        }
+      }
       const GraphFile& file = file_of(leaf.scope);
       const json_text::Position position = file.source.position(file.nodes[leaf.node].offset);
       node.place = {file.source.file(), position.line, position.column,
                     "/nodes/" + json_text::escape_pointer(file.nodes[leaf.node].name)};
     }
-    add_outputs(dag, 0, place);
+    add_outputs(dag, 0, place, given);
     add_interfaces(dag, place);
     for (std::size_t i = expansion_.loops.size(); i-- > 0;)  // inner loops first
       finish(*expansion_.loops[i].loop, expansion_.loops[i].scope, place);
     return dag;
   }
 
-  void add_outputs(Dag& dag, std::size_t scope, const std::vector<std::size_t>& place) {
+  /// Artifacts from outside come first: they have no inputs.
+  std::map<std::string, std::size_t> add_given(Dag& dag) const {
+    std::map<std::string, std::size_t> place;
+    for (const auto& [name, artifact] : given_) {
+      const auto given = std::make_shared<Given>();
+      given->artifact = artifact;
+      given->decl.id = "artifact";
+      PortDecl port;
+      port.name = name;
+      port.type = artifact->type();
+      port.type_version = artifact->version();
+      given->decl.outputs.push_back(std::move(port));
+      DagNode node;
+      node.path = "inputs/" + name;  // no node of a graph is named "inputs"
+      node.decl = &given->decl;
+      node.given = given;
+      place[name] = dag.nodes.size();
+      dag.nodes.push_back(std::move(node));
+    }
+    return place;
+  }
+
+  void add_outputs(Dag& dag, std::size_t scope, const std::vector<std::size_t>& place,
+                   const std::map<std::string, std::size_t>& given = {}) {
     for (const GraphOutput& output : file_of(scope).outputs) {
       const Target target = resolve(scope, &output.from);
       if (target.kind == Target::Kind::leaf)
         dag.outputs.push_back({output.name, output.doc, {place[target.leaf], target.port}});
       if (target.kind == Target::Kind::loop_input)
         dag.outputs.push_back({output.name, output.doc, {loop_input, target.port}});
+      if (target.kind == Target::Kind::given)
+        dag.outputs.push_back({output.name, output.doc, {given.at(target.port), target.port}});
     }
   }
 
@@ -511,6 +569,8 @@ class Connector {
     Dag& body = loop.body;
     body.file = file_of(scope).source.file();
     body.doc = file_of(scope).doc;
+    for (std::size_t i = 0; i < file_of(scope).params.size(); ++i)
+      body.params[file_of(scope).params[i].decl.name] = *expansion_.scopes[scope].params[i];
     add_outputs(body, scope, place);
     const std::vector<bool> needed = needed_nodes(body);
     std::vector<std::size_t> number(needed.size());
@@ -536,6 +596,7 @@ class Connector {
   }
 
   const Expansion& expansion_;
+  const std::map<std::string, ArtifactPtr>& given_;
   Findings& findings_;
   std::vector<std::string> type_names_;
   std::vector<std::vector<Memo>> resolved_;            // by scope and output
@@ -544,8 +605,9 @@ class Connector {
 
 }  // namespace
 
-Dag connect(const Expansion& expansion, const Registry& registry, Findings& findings) {
-  return Connector(expansion, registry, findings).run();
+Dag connect(const Expansion& expansion, const Registry& registry,
+            const std::map<std::string, ArtifactPtr>& given, Findings& findings) {
+  return Connector(expansion, registry, given, findings).run();
 }
 
 }  // namespace ballflow

@@ -66,6 +66,11 @@ NodeStatus Runner::Impl::compute(std::size_t i) {
   if (outcome.status != NodeRunOutcome::Status::ok) {
     result.cause = outcome.cause;
     result.hint = outcome.hint;
+    if (outcome.failed_call) {
+      result.failed_call = FailedCall{outcome.failed_call->node, {}};
+      for (const auto& [port, artifact] : outcome.failed_call->inputs)
+        result.failed_call->inputs[port] = output_entry(port, *artifact);
+    }
     return outcome.status == NodeRunOutcome::Status::failed ? NodeStatus::failed : NodeStatus::cancelled;
   }
   check_files(i);
@@ -91,6 +96,11 @@ NodeRunOutcome Runner::Impl::execute(std::size_t i, unsigned threads) {
   request.progress = [this, i](double fraction) { progress(i, fraction); };
   request.message = [this, i](bool warning, const std::string& text) { message(i, warning, text); };
   NodeRunOutcome outcome = node.loop ? run_loop(request) : run_node(request);
+  if (outcome.status == NodeRunOutcome::Status::failed) {
+    if (!outcome.failed_call) outcome.failed_call = InnerCall{&node, request.inputs};
+    // Whatever they cost to make again: the call can then be repeated alone.
+    for (const auto& [port, artifact] : outcome.failed_call->inputs) store_->put_blob(*artifact, false);
+  }
   request.inputs.clear();
   for (const auto& [port, edge] :
        node.inputs) {  // made again for this node alone: nobody else will free them
@@ -122,8 +132,7 @@ std::vector<OutputEntry> Runner::Impl::publish(std::size_t i, const NodeRunOutco
   entry.seconds = outcome.seconds;
   entry.cpu_seconds = outcome.cpu_seconds;
   for (const auto& [port, artifact] : outcome.outputs) {
-    entry.outputs.push_back({port, artifact->type(), artifact->version(), artifact->digest(),
-                             artifact->file_size(), artifact->checksum(), artifact->summary()});
+    entry.outputs.push_back(output_entry(port, *artifact));
     if (store_->read_only() || !worth_storing(artifact->file_size(), outcome.seconds)) continue;
     Event event{Event::Kind::cache_write, i};
     event.text = dag_.nodes[i].path + "." + port;
@@ -166,6 +175,7 @@ void Runner::Impl::disagree(std::size_t i) {
 
 /// The artifact of a resolved node: held in memory, read from the store, or made again for `reader`.
 ArtifactPtr Runner::Impl::ensure(const EdgeRef& edge, std::size_t reader) {
+  if (const auto& given = dag_.nodes[edge.node].given) return given->artifact;
   State& state = *states_[edge.node];
   const std::lock_guard lock(state.mutex);
   if (const auto held = state.held.find(edge.port); held != state.held.end()) return held->second;

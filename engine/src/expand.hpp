@@ -88,8 +88,10 @@ struct Expansion {
 void expand(const GraphFile& top, GraphFiles& files, const Registry& registry,
             const std::vector<const Setting*>& settings, Expansion& expansion, Findings& findings);
 
-/// Connects the leaves, checks ports, types and cycles, and puts the nodes into topological order.
-Dag connect(const Expansion& expansion, const Registry& registry, Findings& findings);
+/// Connects the leaves, checks ports, types and cycles, and puts the nodes into topological order. `given`
+/// are the artifacts for the inputs of the top graph.
+Dag connect(const Expansion& expansion, const Registry& registry,
+            const std::map<std::string, ArtifactPtr>& given, Findings& findings);
 
 /// The settings of every loop, as parameters of its node: until, max_iterations, at_limit.
 const std::vector<ParamDecl>& loop_settings();

@@ -63,7 +63,7 @@ Dag merge_variants(const GraphFile& top, GraphFiles& files, const Registry& regi
     Expansion expansion;
     expand(top, files, registry, settings, expansion, found);
     Dag dag;
-    if (!expansion.abandoned) dag = connect(expansion, registry, found);
+    if (!expansion.abandoned) dag = connect(expansion, registry, {}, found);
     if (found.failed()) {
       ++failures;
     } else if (failures == 0) {
@@ -91,7 +91,8 @@ std::string base_path(const std::string& path) {
 }
 
 Dag parse_graph(const std::string& text, const std::string& file, const Registry& registry,
-                const std::vector<Override>& overrides, const SweepOptions& options) {
+                const std::vector<Override>& overrides, const SweepOptions& options,
+                const std::map<std::string, ArtifactPtr>& given) {
   Findings findings;
   GraphFiles files(findings);
   files.names.push_back(file);
@@ -111,7 +112,7 @@ Dag parse_graph(const std::string& text, const std::string& file, const Registry
     } else {
       Expansion expansion;
       expand(*top, files, registry, settings, expansion, findings);
-      if (!expansion.abandoned) dag = connect(expansion, registry, findings);
+      if (!expansion.abandoned) dag = connect(expansion, registry, given, findings);
     }
   }
   const bool failed = findings.failed();
@@ -122,8 +123,8 @@ Dag parse_graph(const std::string& text, const std::string& file, const Registry
 }
 
 Dag load_graph(const std::string& file, const Registry& registry, const std::vector<Override>& overrides,
-               const SweepOptions& sweep) {
-  return parse_graph(read_text_file(file), file, registry, overrides, sweep);
+               const SweepOptions& sweep, const std::map<std::string, ArtifactPtr>& given) {
+  return parse_graph(read_text_file(file), file, registry, overrides, sweep, given);
 }
 
 }  // namespace ballflow

@@ -5,8 +5,6 @@
 #include <cctype>
 #include <filesystem>
 
-#include "ballflow/run.hpp"
-
 namespace ballflow {
 namespace {
 
@@ -94,35 +92,6 @@ Json key_value(const ParamDecl& decl, const Json& value, Store& store) {
     default:
       return value;
   }
-}
-
-void compare(const std::string& path, const Json& before, const Json& now, std::vector<std::string>& out) {
-  if (before == now) return;
-  if (before.is_object() && now.is_object()) {
-    for (const auto& [name, value] : before.items()) {
-      const std::string inner = path.empty() ? name : path + "." + name;
-      if (now.contains(name)) {
-        compare(inner, value, now.at(name), out);
-      } else {
-        out.push_back(inner + " is gone");
-      }
-    }
-    for (const auto& [name, value] : now.items()) {
-      if (!before.contains(name))
-        out.push_back((path.empty() ? name : path + "." + name) + " is new: " + value.dump());
-    }
-    return;
-  }
-  if (path.size() > 7 && path.substr(path.size() - 7) == ".digest") {
-    const std::string owner = path.substr(0, path.size() - 7);
-    if (owner.rfind("inputs.", 0) == 0) {
-      out.push_back("input " + owner.substr(7) + ": other content");
-    } else {
-      out.push_back(owner + ": other content");
-    }
-    return;
-  }
-  out.push_back(path + " " + before.dump() + " -> " + now.dump());
 }
 
 Json body_manifest(const Dag& body, Store& store);
@@ -256,13 +225,12 @@ ActionKey action_key(const DagNode& node, const std::map<std::string, OutputEntr
   return {sha256(bytes), std::move(text)};
 }
 
-std::vector<std::string> manifest_differences(const std::string& before, const std::string& now) {
-  std::vector<std::string> out;
-  const Json a = Json::parse(before, nullptr, false);
-  const Json b = Json::parse(now, nullptr, false);
-  if (a.is_discarded() || b.is_discarded()) return {"the record of the earlier run cannot be read"};
-  compare("", a, b, out);
-  return out;
+Digest key_of(const std::string& manifest) {
+  const Json json = Json::parse(manifest, nullptr, false);
+  if (!json.is_object()) throw Error(ExitCode::store, "a key manifest cannot be read");
+  std::string bytes;
+  add_value(bytes, json);
+  return sha256(bytes);
 }
 
 }  // namespace ballflow

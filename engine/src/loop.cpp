@@ -84,6 +84,8 @@ class LoopRun {
           outcome_.cause = request.node->path + " (" + request.node->decl->id + ") failed in iteration " +
                            std::to_string(iteration_) + ": " + step.cause;
           outcome_.hint = step.hint;
+          outcome_.failed_call =
+              step.failed_call ? std::move(step.failed_call) : InnerCall{request.node, request.inputs};
         }
         end(step.status);
       }

@@ -30,6 +30,17 @@ class Fields {
       fail_field(name, in_quotes(value) + " is no name (letters, digits and _, no digit first)");
     return value;
   }
+  /// Of a node or an artifact type: identifiers joined by dots, "Offset" or "acme.Offset".
+  std::string type_id(const char* name) {
+    constexpr std::size_t longest = 200;  // the file of an artifact names its type
+    const std::string value = text(name);
+    if (!is_type_id(value) || value.size() > longest) {
+      fail_field(name, in_quotes(value) +
+                           " is no name of a type (letters, digits and _, no digit first; after a namespace "
+                           "and a dot: acme.Offset)");
+    }
+    return value;
+  }
   int version(const char* name) {
     const Json* value = get(name, false);
     if (!value->is_number_integer() || *value < 1 || *value > 1'000'000)
@@ -106,7 +117,7 @@ PortDecl parse_port(const Json& json, const std::string& where) {
   PortDecl port;
   port.name = fields.identifier("name");
   fields.rename(where + " " + in_quotes(port.name));
-  port.type = fields.identifier("type");
+  port.type = fields.type_id("type");
   port.type_version = fields.version("type_version");
   port.doc = fields.text("doc");
   port.optional = fields.boolean("optional", false);
@@ -252,8 +263,10 @@ NodeDeclaration parse_node_declaration(std::string_view text) {
   const Json json = parse_text(text, "declaration of a node");
   Fields fields(json, "declaration of a node");
   NodeDeclaration node;
-  node.id = fields.identifier("id");
+  node.id = fields.type_id("id");
   fields.rename("node " + in_quotes(node.id));
+  const std::set<std::string> reserved = {"artifact", "graph", "loop", "node", "parameter", "subgraph"};
+  if (reserved.contains(node.id)) fields.fail_field("id", "is reserved; put a namespace in front of it");
   node.version = fields.version("version");
   node.summary = fields.text("summary");
   node.doc = fields.text("doc");
@@ -303,7 +316,7 @@ TypeDeclaration parse_type_declaration(std::string_view text) {
   const Json json = parse_text(text, "declaration of a type");
   Fields fields(json, "declaration of a type");
   TypeDeclaration type;
-  type.id = fields.identifier("id");
+  type.id = fields.type_id("id");
   fields.rename("type " + in_quotes(type.id));
   type.version = fields.version("version");
   type.doc = fields.text("doc");

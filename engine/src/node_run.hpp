@@ -24,11 +24,18 @@ struct NodeRunRequest {
   std::function<void(bool warning, const std::string&)> message;
 };
 
+/// A call of a node in the body of a loop, with what it got.
+struct InnerCall {
+  const DagNode* node = nullptr;
+  std::map<std::string, ArtifactPtr> inputs;  // by port
+};
+
 struct NodeRunOutcome {
   enum class Status { ok, failed, cancelled } status = Status::failed;
   std::map<std::string, ArtifactPtr> outputs;  // by port, every declared one when ok
   std::vector<std::string> warnings;
   std::string cause, hint;                 // when failed
+  std::optional<InnerCall> failed_call;    // when failed in the body of a loop
   std::optional<std::int64_t> iterations;  // of a loop
   double seconds = 0, cpu_seconds = 0;
 };

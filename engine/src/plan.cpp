@@ -61,6 +61,30 @@ std::optional<std::uint64_t> parse_memory(std::string_view text) {
   return bytes;
 }
 
+std::string_view to_string(NodePlan::Verdict verdict) {
+  switch (verdict) {
+    case NodePlan::Verdict::hit:
+      return "HIT";
+    case NodePlan::Verdict::run:
+      return "RUN";
+    case NodePlan::Verdict::maybe:
+      return "MAYBE";
+    case NodePlan::Verdict::unneeded:
+      return "-";
+  }
+  return "";
+}
+
+OutputEntry output_entry(const std::string& port, const Artifact& artifact) {
+  return {port,
+          artifact.type(),
+          artifact.version(),
+          artifact.digest(),
+          artifact.file_size(),
+          artifact.checksum(),
+          artifact.summary()};
+}
+
 std::optional<ActionEntry> find_entry(Store& store, const NodeDeclaration& decl, const Digest& key) {
   std::optional<ActionEntry> entry = store.find_action(key);
   const auto gives = [&entry](const PortDecl& port) {
@@ -123,23 +147,30 @@ std::vector<NodePlan> plan(const Dag& dag, Store& store, std::uint64_t seed, con
       plan.reason = "no output of the graph needs it";
       continue;
     }
+    if (node.given) {
+      plan.verdict = Verdict::hit;
+      plan.reason = "given";
+      entries[i].emplace().outputs.push_back(output_entry(node.decl->outputs[0].name, *node.given->artifact));
+      continue;
+    }
     std::map<std::string, OutputEntry> inputs;
     std::string unknown;
     for (const auto& [port, edge] : node.inputs) {
       if (!entries[edge.node]) {
-        unknown = dag.nodes[edge.node].path;
-        break;
+        if (unknown.empty()) unknown = dag.nodes[edge.node].path;
+        continue;
       }
       for (const OutputEntry& output : entries[edge.node]->outputs) {
         if (output.port == edge.port) inputs[port] = output;
       }
     }
+    const ActionKey key = action_key(node, inputs, seed, store);
+    plan.manifest = key.manifest;
     if (!unknown.empty()) {
       plan.verdict = Verdict::maybe;
       plan.reason = "waits for " + unknown + "; a hit if that gives the same content as before";
       continue;
     }
-    const ActionKey key = action_key(node, inputs, seed, store);
     entries[i] = find_entry(store, *node.decl, key.key);
     if (entries[i]) {
       plan.verdict = Verdict::hit;
@@ -165,7 +196,7 @@ std::vector<NodePlan> plan(const Dag& dag, Store& store, std::uint64_t seed, con
     for (const auto& [port, edge] : dag.nodes[i].inputs) consumers[edge.node].emplace_back(i, edge.port);
   }
   for (std::size_t i = n; i-- > 0;) {
-    if (plans[i].verdict != Verdict::hit) continue;
+    if (plans[i].verdict != Verdict::hit || dag.nodes[i].given) continue;
     for (const auto& [consumer, port] : consumers[i]) {
       if (plans[consumer].verdict != Verdict::run) continue;
       const auto output = std::find_if(entries[i]->outputs.begin(), entries[i]->outputs.end(),

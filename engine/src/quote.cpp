@@ -1,5 +1,6 @@
 #include "quote.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -45,6 +46,31 @@ std::string printable(std::string_view text) {
     }
   }
   return result;
+}
+
+std::string shell_word(std::string_view text) {
+  constexpr std::string_view plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+%@";
+  if (!text.empty() && text.find_first_not_of(plain) == std::string_view::npos) return std::string(text);
+  std::string result;
+  if (printable(text) == text) {
+    for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return "'" + result + "'";
+  }
+  while (!text.empty()) {
+    const std::size_t length = printable_length(text);
+    if (length == 0) {
+      constexpr const char* digits = "01234567";
+      const auto byte = static_cast<unsigned char>(text[0]);
+      // Octal, because it ends after three digits whatever follows.
+      result += {'\\', digits[byte >> 6], digits[byte >> 3 & 7], digits[byte & 7]};
+    } else {
+      if (text[0] == '\'' || text[0] == '\\') result += '\\';
+      result += text.substr(0, length);
+    }
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return "$'" + result + "'";
 }
 
 bool is_utf8(const std::string& text) {
@@ -177,6 +203,14 @@ bool is_identifier(std::string_view text) {
       return false;
   }
   return true;
+}
+
+bool is_type_id(std::string_view text) {
+  for (std::size_t dot = text.find('.'); dot != std::string_view::npos; dot = text.find('.')) {
+    if (!is_identifier(text.substr(0, dot))) return false;
+    text.remove_prefix(dot + 1);
+  }
+  return is_identifier(text);
 }
 
 }  // namespace ballflow

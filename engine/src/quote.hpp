@@ -45,4 +45,7 @@ bool kind_from_name(std::string_view name, ParamKind& kind);
 /// Letters, digits and _; no digit first.
 bool is_identifier(std::string_view text);
 
+/// Identifiers joined by dots: the id of a node or artifact type, with or without a namespace.
+bool is_type_id(std::string_view text);
+
 }  // namespace ballflow

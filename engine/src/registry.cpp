@@ -148,10 +148,15 @@ std::shared_ptr<const Registry> Registry::load(const std::vector<std::string>& e
     return why;
   };
 
+  const auto load_folder = [&](const std::string& folder) {
+    registry->folders_.push_back(folder);
+    for (const std::string& file : libraries_in(folder)) load_file(file);
+  };
+
   for (const std::string& path : extra) {
     std::error_code error;
     if (fs::is_directory(path, error)) {
-      for (const std::string& file : libraries_in(path)) load_file(file);
+      load_folder(path);
       continue;
     }
     const std::string why = load_file(path);
@@ -162,14 +167,11 @@ std::shared_ptr<const Registry> Registry::load(const std::vector<std::string>& e
     while (!rest.empty()) {
       const std::string_view folder = rest.substr(0, rest.find(':'));
       rest.remove_prefix(std::min(rest.size(), folder.size() + 1));
-      if (folder.empty()) continue;
-      for (const std::string& file : libraries_in(folder)) load_file(file);
+      if (!folder.empty()) load_folder(std::string(folder));
     }
   }
   const std::string own = default_folder();
-  if (!own.empty()) {
-    for (const std::string& file : libraries_in(own)) load_file(file);
-  }
+  if (!own.empty()) load_folder(own);
 
   registry->drop_nodes_of_unknown_types();
   return registry;

@@ -97,7 +97,14 @@ Json run_report(const std::string& id, const Dag& dag, const RunResult& result) 
   for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
     const DagNode& node = dag.nodes[i];
     const NodeResult& r = result.nodes[i];
-    members.emplace_back(node.path, node_report(node, r));
+    Json json = node_report(node, r);
+    if (!node.inputs.empty()) json["inputs"] = Json::object();
+    for (const auto& [port, edge] : node.inputs)
+      json["inputs"][port] = dag.nodes[edge.node].path + "." + edge.port;
+    if (node.loop) json["body"] = Json::array();
+    for (std::size_t k = 0; node.loop && k < node.loop->body.nodes.size(); ++k)
+      json["body"].push_back(node.loop->body.nodes[k].path);
+    members.emplace_back(node.path, std::move(json));
   }
   report["nodes"] = std::move(nodes);
   Json outputs = Json::object();

@@ -230,6 +230,10 @@ void Runner::Impl::resolve(std::size_t i) {
   State& state = *states_[i];
   if (stopping()) return settle(i, NodeStatus::cancelled, "the run was cancelled");
   if (stop_starting_) return;  // stays pending, becomes skipped
+  if (node.given) {
+    result_.nodes[i].outputs = {output_entry(node.decl->outputs[0].name, *node.given->artifact)};
+    return settle(i, NodeStatus::hit, "given");
+  }
 
   const bool forced = options_.force.count(i) != 0 && take_force(i);
   if (!state.key) {

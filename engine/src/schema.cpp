@@ -247,7 +247,8 @@ std::string range_text(const ParamDecl& param) {
   return text;
 }
 
-Json example(const NodeDeclaration& node) {
+/// For nodes that no graph at hand uses.
+Json made_up_example(const NodeDeclaration& node) {
   Json json = {{"type", node.id}};
   for (const PortDecl& port : node.inputs) {
     if (!port.optional) json["inputs"][port.name] = port.name + "_source." + port.name;
@@ -265,7 +266,13 @@ Json example(const NodeDeclaration& node) {
       json["params"][param.name] = "${" + param.name + "}";
     }
   }
-  return json;
+  return {{"node", std::move(json)}};
+}
+
+std::string command(const NodeExample& example) {
+  std::string text = "ballflow run graphs/" + example.graph;
+  for (const Override& set : example.overrides) text += " --set " + set.name + "=" + set.value;
+  return text;
 }
 
 void ports_table(std::string& text, const char* title, const std::vector<PortDecl>& ports) {
@@ -277,9 +284,12 @@ void ports_table(std::string& text, const char* title, const std::vector<PortDec
   }
 }
 
+/// What GitHub makes of a heading: lower case, without dots.
 std::string anchor(const std::string& id) {
   std::string text;
-  for (const char c : id) text += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  for (const char c : id) {
+    if (c != '.') text += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  }
   return text;
 }
 
@@ -359,7 +369,7 @@ Json graph_schema(const Registry& registry) {
           {"definitions", std::move(definitions)}};
 }
 
-std::string node_markdown(const NodeDeclaration& node) {
+std::string node_markdown(const NodeDeclaration& node, const NodeExample* example) {
   std::string text = "### " + node.id + "\n\n" + node.summary + "\n";
   if (!node.doc.empty()) text += "\n" + node.doc + "\n";
   if (!node.avoid_when.empty()) text += "\nAvoid when: " + node.avoid_when + "\n";
@@ -379,7 +389,11 @@ std::string node_markdown(const NodeDeclaration& node) {
       for (const auto& [value, doc] : param.choices) text += "- `" + value + "`: " + doc + "\n";
     }
   }
-  text += "\n```json\n" + example(node).dump(2) + "\n```\n";
+  text += "\n```json\n" + (example == nullptr ? made_up_example(node) : example->entry).dump(2) + "\n```\n";
+  if (example != nullptr) {
+    text += "\nFrom [" + example->file + "](../graphs/" + example->file + "); `" + command(*example) +
+            "` runs it.\n";
+  }
   std::string facts = "Behaviour version " + std::to_string(node.version) + ".";
   if (node.uses_seed) facts += " The result depends on the seed.";
   for (const auto& [library, version] : node.libraries)
@@ -389,7 +403,7 @@ std::string node_markdown(const NodeDeclaration& node) {
   return text;
 }
 
-std::string nodes_markdown(const Registry& registry) {
+std::string nodes_markdown(const Registry& registry, const std::map<std::string, NodeExample>& examples) {
   std::string text = "# Nodes\n\n| node | inputs | outputs | |\n|---|---|---|---|\n";
   const auto types_of = [](const std::vector<PortDecl>& ports) {
     std::string types;
@@ -400,7 +414,10 @@ std::string nodes_markdown(const Registry& registry) {
     text += "| [" + id + "](#" + anchor(id) + ") | " + types_of(node.inputs) + " | " +
             types_of(node.outputs) + " | " + cell(node.summary) + " |\n";
   }
-  for (const auto& [id, node] : registry.nodes()) text += "\n" + node_markdown(node);
+  for (const auto& [id, node] : registry.nodes()) {
+    const auto example = examples.find(id);
+    text += "\n" + node_markdown(node, example == examples.end() ? nullptr : &example->second);
+  }
   text += "\n# Types\n";
   for (const auto& [id, type] : registry.types()) text += "\n" + type_markdown(type);
   return text;

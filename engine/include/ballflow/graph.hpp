@@ -64,6 +64,7 @@ struct Place {
 constexpr std::size_t loop_input = static_cast<std::size_t>(-1);
 
 struct Loop;
+struct Given;
 
 /// An edge of the flat DAG: output `port` of node `node` (index into Dag::nodes).
 struct EdgeRef {
@@ -77,7 +78,8 @@ struct DagNode {
   std::map<std::string, EdgeRef> inputs;  // connected ports only
   std::map<std::string, Json> params;     // every declared parameter, defaults filled in, checked
   Place place;
-  std::shared_ptr<const Loop> loop;  // of a loop, else null
+  std::shared_ptr<const Loop> loop;    // of a loop, else null
+  std::shared_ptr<const Given> given;  // of an artifact from outside, else null
 };
 
 struct DagOutput {
@@ -130,6 +132,12 @@ struct Loop {
   bool stop_at_limit = false;
 };
 
+/// An artifact from outside: a node without inputs that never runs. DagNode::decl points to `decl`.
+struct Given {
+  NodeDeclaration decl;  // one output
+  ArtifactPtr artifact;
+};
+
 /// One --set: "epsilon" or "prune/greedy.mode" (also with dots: "prune.greedy.mode"), and its text.
 struct Override {
   std::string name, value;
@@ -153,11 +161,16 @@ std::string base_path(const std::string& path);
 /// GraphError with ALL findings. Relative paths of file parameters written in a graph file are relative to
 /// the current directory when they come from an override or a default, as on every command line.
 /// Limits: 64 MB of text, nesting depth 100, 1 000 000 nodes, subgraphs 50 deep, 100 000 variants.
+///
+/// `given`: artifacts for the "inputs" of a graph without a sweep, by name; they become nodes
+/// "inputs/<name>". An input that is neither given nor optional is an error, as is an artifact without an
+/// input of its name and type.
 Dag load_graph(const std::string& file, const Registry& registry, const std::vector<Override>& overrides = {},
-               const SweepOptions& sweep = {});
+               const SweepOptions& sweep = {}, const std::map<std::string, ArtifactPtr>& given = {});
 
 /// The same from text; `file` is the name used in messages and the base of relative subgraph paths.
 Dag parse_graph(const std::string& text, const std::string& file, const Registry& registry,
-                const std::vector<Override>& overrides = {}, const SweepOptions& sweep = {});
+                const std::vector<Override>& overrides = {}, const SweepOptions& sweep = {},
+                const std::map<std::string, ArtifactPtr>& given = {});
 
 }  // namespace ballflow

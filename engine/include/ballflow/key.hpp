@@ -28,4 +28,7 @@ struct ActionKey {
 ActionKey action_key(const DagNode& node, const std::map<std::string, OutputEntry>& inputs,
                      std::uint64_t seed, Store& store);
 
+/// The key that a manifest stands for. Throws Error when the text is no JSON object.
+Digest key_of(const std::string& manifest);
+
 }  // namespace ballflow

@@ -40,6 +40,8 @@ class Registry {
   const std::map<std::string, NodeDeclaration>& nodes() const { return nodes_; }
   const std::map<std::string, TypeDeclaration>& types() const { return types_; }
   const std::vector<PluginCandidate>& candidates() const { return candidates_; }
+  /// The folders that were searched, in order; some may not exist.
+  const std::vector<std::string>& folders() const { return folders_; }
 
  private:
   void drop_nodes_of_unknown_types();
@@ -47,6 +49,7 @@ class Registry {
   std::map<std::string, NodeDeclaration> nodes_;
   std::map<std::string, TypeDeclaration> types_;
   std::vector<PluginCandidate> candidates_;
+  std::vector<std::string> folders_;
 };
 
 /// Reads the ABI note of an ELF file without loading it. Returns an empty string when the library fits,

@@ -41,6 +41,13 @@ struct RunOptions {
 /// The greater number of threads of check_determinism.
 unsigned several_threads(const RunOptions& options);
 
+/// The call that failed: of the node itself, or of a node in the body of a loop. What it takes to run it
+/// alone.
+struct FailedCall {
+  const DagNode* node = nullptr;              // of the Dag, or of the body of a Loop in it
+  std::map<std::string, OutputEntry> inputs;  // by port; stored, unless the store could not be written
+};
+
 struct NodeResult {
   NodeStatus status = NodeStatus::pending;
   std::string reason;                   // why it ran, or why it was a hit
@@ -52,6 +59,7 @@ struct NodeResult {
   std::optional<std::int64_t> iterations;  // of a loop that ran
   std::string cause, hint;                 // of a failure
   bool deterministic = true;               // false: two executions with the same key gave different results
+  std::optional<FailedCall> failed_call;   // of a failure while it ran
 };
 
 struct RunResult {
@@ -97,6 +105,7 @@ struct NodePlan {
   };  // maybe: an input will be computed anew and may turn out equal
   Verdict verdict = Verdict::run;
   std::string reason;
+  std::string manifest;  // of the key, without the inputs that are not known; empty when unneeded
   /// Of a hit what it took to make. Otherwise a guess: what the node took in another execution, preferably
   /// with the same parameters and with inputs of about the size, times the ratio of the sizes of the inputs.
   /// Empty when it never ran.
@@ -104,11 +113,16 @@ struct NodePlan {
   std::string seconds_from;  // where the guess comes from
   std::uint64_t memory = 0;  // the node's own estimate, for inputs of the known or guessed size
 };
+/// "HIT", "RUN", "MAYBE", or "-" for a node that no output needs.
+std::string_view to_string(NodePlan::Verdict verdict);
 std::vector<NodePlan> plan(const Dag& dag, Store& store, std::uint64_t seed, const Manifests& earlier);
 
 /// The entry of a key in the store. One that lacks a declared output, or has it in another version of its
 /// type, is a miss: it comes from a library whose author forgot to raise the behaviour version.
 std::optional<ActionEntry> find_entry(Store& store, const NodeDeclaration& decl, const Digest& key);
+
+/// What an entry says of one output.
+OutputEntry output_entry(const std::string& port, const Artifact& artifact);
 
 /// Which nodes the outputs of the graph need; as Dag::nodes.
 std::vector<bool> needed_nodes(const Dag& dag);
@@ -124,7 +138,8 @@ std::set<std::size_t> nodes_named(const Dag& dag, const std::string& path);
 /// for anything else.
 std::optional<std::uint64_t> parse_memory(std::string_view text);
 
-/// What differs between two key manifests, in words ("params.epsilon 0.3 -> 0.5").
+/// What differs between two key manifests, each difference in words: "params.epsilon 0.3 -> 0.5", "Enlarge
+/// version 1 -> 2", "library CGAL \"5.5\" -> \"5.6\"", "input balls: other content".
 std::vector<std::string> manifest_differences(const std::string& before, const std::string& now);
 
 }  // namespace ballflow

@@ -69,8 +69,10 @@ TEST(declaration, that_is_wrong_names_the_field) {
             "declaration of a node:1:2: error: not JSON: unexpected end of input; expected string literal "
             "(in object key)\n"
             "    {\n     ^\n  the text ends too early: a bracket or quote is not closed");
-  EXPECT_EQ(node_problem(R"({"id":"a b","version":1})"),
-            "declaration of a node: \"id\" \"a b\" is no name (letters, digits and _, no digit first)");
+  EXPECT_EQ(
+      node_problem(R"({"id":"a b","version":1})"),
+      "declaration of a node: \"id\" \"a b\" is no name of a type (letters, digits and _, no digit first; "
+      "after a namespace and a dot: acme.Offset)");
   EXPECT_EQ(node_problem(R"({"id":"N","version":0})"), "node \"N\": \"version\" is no version (1, 2, ...)");
   EXPECT_EQ(node_problem(R"({"id":"N","version":1,"doc":""})"), "node \"N\" has no \"summary\"");
   EXPECT_EQ(node_problem(R"({"id":"N","version":1,"summary":"","doc":"","extra":1})"),
@@ -102,6 +104,25 @@ TEST(declaration, that_is_wrong_names_the_field) {
   EXPECT_EQ(type_problem(
                 R"({"id":"T","version":1,"doc":"","arrays":[{"name":"a","dtype":"f64","shape":[3,"n"]}]})"),
             "type \"T\": array \"a\": \"shape\" holds fixed lengths and at most a name in front");
+}
+
+TEST(declaration, may_have_a_namespace) {
+  const auto with_id = [](const std::string& id) {
+    return node_problem("{\"id\":\"" + id + "\",\"version\":1,\"summary\":\"\",\"doc\":\"\"}");
+  };
+  for (const char* good : {"Offset", "acme.Offset", "com.acme_2.x.Offset", "_", "Node", "acme.loop"})
+    EXPECT_EQ(with_id(good), "") << good;
+  for (const char* bad : {"", ".", "acme.", ".Offset", "acme..Offset", "acme.2d", "acme/Offset",
+                          "acme.Off-set", "acme.Of set", "\xc3\xa4.Offset"})
+    EXPECT_NE(with_id(bad).find("is no name of a type"), std::string::npos) << bad;
+  EXPECT_EQ(with_id(std::string(200, 'a')), "");
+  EXPECT_NE(with_id(std::string(201, 'a')), "");
+  // These are words of graph files and of the schemas.
+  for (const char* word : {"loop", "artifact", "graph", "node", "parameter", "subgraph"})
+    EXPECT_EQ(with_id(word),
+              "node \"" + std::string(word) + "\": \"id\" is reserved; put a namespace in front of it");
+  EXPECT_EQ(parse_type_declaration(R"({"id":"acme.Grid","version":1,"doc":""})").id, "acme.Grid");
+  EXPECT_NE(type_problem(R"({"id":"acme.","version":1,"doc":""})"), "");
 }
 
 TEST(param, refuses_values_outside_its_kind_and_range) {
@@ -298,6 +319,36 @@ sys.exit(1 if wrong else 0)
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
 
+TEST(examples, are_the_first_uses_in_the_graphs_of_a_folder_and_in_what_they_can_include) {
+  const Registry registry = test::toy_registry();
+  const test::TempFolder folder;
+  test::write_file(folder.file("b.json"), R"({ // comments are fine
+    "params": { "how": { "kind": "string", "default": "none" } },
+    "nodes": { "load": { "type": "Load", "params": { "file": "x" } },
+               "part": { "graph": "parts/${how}.json", "inputs": { "points": "load.points" } } },
+    "outputs": { "balls": "part.balls" } })");
+  test::write_file(folder.file("a.json"), R"({ "nodes": { "other": { "type": "Absent" } } })");
+  test::write_file(folder.file("parts/none.json"), R"({ "inputs": { "points": { "type": "Points" } },
+    "nodes": { "small": { "type": "Grow", "inputs": { "points": "inputs.points" }, "params": { "epsilon": 0 } } },
+    "outputs": { "balls": "small.balls" } })");
+  test::write_file(folder.file("parts/much.json"), R"({ "inputs": { "points": { "type": "Points" } },
+    "nodes": { "g": { "type": "Grow", "inputs": { "points": "inputs.points" } },
+               "m": { "type": "Match", "inputs": { "points": "inputs.points", "balls": "g.balls" } } },
+    "outputs": { "balls": "m.rest" } })");
+  const auto examples = find_examples(folder.path(), registry);
+  ASSERT_EQ(examples.size(), 3u);
+  EXPECT_EQ(examples.at("Load").file, "b.json");
+  EXPECT_EQ(examples.at("Load").entry.begin().key(), "load");
+  EXPECT_EQ(examples.at("Grow").file, "parts/none.json");
+  EXPECT_EQ(examples.at("Grow").entry.at("small").at("params").at("epsilon"), 0);
+  EXPECT_TRUE(examples.at("Grow").overrides.empty());
+  EXPECT_EQ(examples.at("Match").graph, "b.json");
+  EXPECT_EQ(examples.at("Match").file, "parts/much.json");
+  ASSERT_EQ(examples.at("Match").overrides.size(), 1u);
+  EXPECT_EQ(examples.at("Match").overrides[0].value, "much");
+  EXPECT_TRUE(find_examples(folder.file("nowhere"), registry).empty());
+}
+
 TEST(markdown, shows_a_node_completely) {
   const Registry registry = test::toy_registry();
   EXPECT_EQ(node_markdown(*registry.node("Load")),
@@ -308,9 +359,17 @@ TEST(markdown, shows_a_node_completely) {
             "| `scale` | number | `1.0` | > 0 | 1 | factor |\n"
             "| `mode` | choice | `\"fast\"` | `fast`, `exact` |  | how |\n\n"
             "Choices of `mode`:\n\n- `fast`: quick\n- `exact`: slow\n\n"
-            "```json\n{\n  \"type\": \"Load\",\n  \"params\": {\n    \"file\": \"${file}\",\n    \"scale\": "
-            "1.0,\n    \"mode\": \"fast\"\n  }\n}\n```\n\n"
+            "```json\n{\n  \"node\": {\n    \"type\": \"Load\",\n    \"params\": {\n      \"file\": "
+            "\"${file}\",\n      \"scale\": 1.0,\n      \"mode\": \"fast\"\n    }\n  }\n}\n```\n\n"
             "Behaviour version 1.\n");
+  const NodeExample example = {
+      "top.json", "parts/load.json", {{"part", "load"}}, {{"scan", {{"type", "Load"}}}}};
+  EXPECT_NE(
+      node_markdown(*registry.node("Load"), &example)
+          .find("```json\n{\n  \"scan\": {\n    \"type\": \"Load\"\n  }\n}\n```\n\n"
+                "From [parts/load.json](../graphs/parts/load.json); `ballflow run graphs/top.json --set "
+                "part=load` runs it.\n"),
+      std::string::npos);
   const std::string all = nodes_markdown(registry);
   for (const auto& [id, node] : registry.nodes())
     EXPECT_NE(all.find("\n### " + id + "\n"), std::string::npos);

@@ -428,10 +428,10 @@ TEST_F(KeyTest, every_field_of_the_manifest_changes_the_key_and_is_named) {
   other.version = 2;
   changed = dag.nodes[0];
   changed.decl = &other;
-  expect_change(changed, input, 0, "version 1 -> 2");
+  expect_change(changed, input, 0, "Source version 1 -> 2");
   other = decl;
   other.libraries["CGAL"] = "5.6";
-  expect_change(changed, input, 0, "libraries.CGAL");
+  expect_change(changed, input, 0, "library CGAL");
   other = decl;
   other.id = "Other";
   expect_change(changed, input, 0, "node");
@@ -440,10 +440,10 @@ TEST_F(KeyTest, every_field_of_the_manifest_changes_the_key_and_is_named) {
   expect_change(dag.nodes[0], in, 0, "input a");
   in = input;
   in.type_version = 2;
-  expect_change(dag.nodes[0], in, 0, "inputs.a.version");
+  expect_change(dag.nodes[0], in, 0, "input a: type version 1 -> 2");
   in = input;
   in.type = "Letters";
-  expect_change(dag.nodes[0], in, 0, "inputs.a.type");
+  expect_change(dag.nodes[0], in, 0, "input a: type");
   expect_change(dag.nodes[0], input, 5, "seed");
 }
 

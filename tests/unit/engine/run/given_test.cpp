@@ -1,0 +1,189 @@
+// Artifacts as inputs of a graph, and what a failed node leaves so that it can be run alone.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "ballflow/run.hpp"
+#include "test_data.hpp"
+#include "toy_nodes.hpp"
+
+namespace ballflow {
+namespace {
+
+class Listener final : public EventSink {
+ public:
+  void on(const Event& event) override {
+    if (hear) hear(event);
+  }
+  std::function<void(const Event&)> hear;
+};
+
+ArtifactPtr numbers(std::vector<double> values) {
+  const auto owner = std::make_shared<std::vector<double>>(std::move(values));
+  const Json summary = {{"count", owner->size()}, {"first", owner->front()}};
+  return Artifact::seal("Numbers", 1, {{"values", BF_F64, {owner->size()}, owner->data()}}, summary.dump(),
+                        owner);
+}
+
+struct GivenTest : testing::Test {
+  GivenTest() {
+    registry.add_plugin(toy::plugin(), "toy");
+    toy::reset();
+  }
+
+  Dag parse(const std::string& text, const std::map<std::string, ArtifactPtr>& given) {
+    return parse_graph(text, folder.file("graph.json"), registry, {}, {}, given);
+  }
+  std::string problem(const std::string& text, const std::map<std::string, ArtifactPtr>& given) {
+    try {
+      parse(text, given);
+    } catch (const GraphError& error) {
+      return error.findings().at(0).message;
+    }
+    return {};
+  }
+  RunResult run(const Dag& dag, std::shared_ptr<Store> store) {
+    Runner runner(dag, registry, std::move(store), {}, events);
+    const RunResult result = runner.run();
+    if (result.status == ExitCode::ok && !dag.outputs.empty()) output = runner.artifact(dag.outputs[0].from);
+    return result;
+  }
+  std::shared_ptr<Store> store() { return Store::open({folder.file("cache"), false}); }
+  static const NodeResult& of(const Dag& dag, const RunResult& result, const std::string& path) {
+    return result.nodes.at(static_cast<std::size_t>(dag.find(path) - dag.nodes.data()));
+  }
+
+  Registry registry;
+  test::TempFolder folder;
+  Listener events;
+  ArtifactPtr output;
+};
+
+const char* const sum = R"({
+  "inputs": { "a": { "type": "Numbers" }, "b": { "type": "Numbers", "optional": true } },
+  "nodes": { "sum": { "type": "Add", "inputs": { "a": "inputs.a", "b": "inputs.b" } } },
+  "outputs": { "sum": "sum.sum", "a": "inputs.a" } })";
+
+TEST_F(GivenTest, are_read_by_nodes_and_may_be_outputs) {
+  const ArtifactPtr two = numbers({2, 2});
+  const Dag dag = parse(sum, {{"a", two}, {"b", numbers({1, 3})}});
+  const RunResult result = run(dag, Store::open({}));
+  ASSERT_EQ(result.status, ExitCode::ok);
+  const auto* values = static_cast<const double*>(output->find("values")->data);
+  EXPECT_EQ(std::vector<double>(values, values + 2), (std::vector<double>{3, 5}));
+  EXPECT_EQ(of(dag, result, "inputs/a").status, NodeStatus::hit);
+  EXPECT_EQ(of(dag, result, "inputs/a").outputs.at(0).digest, two->digest());
+  EXPECT_EQ(dag.outputs.at(1).name, "a");
+  EXPECT_EQ(dag.nodes.at(dag.outputs.at(1).from.node).path, "inputs/a");
+}
+
+TEST_F(GivenTest, give_the_same_key_as_the_node_that_made_them) {
+  const auto cache = store();
+  const Dag whole = parse(R"({ "nodes": {
+      "two": { "type": "Source", "params": { "value": 2, "count": 2 } },
+      "sum": { "type": "Add", "inputs": { "a": "two.numbers" } } },
+    "outputs": { "sum": "sum.sum" } })",
+                          {});
+  const RunResult first = run(whole, cache);
+  ASSERT_EQ(first.status, ExitCode::ok);
+  const ArtifactPtr two = cache->load(of(whole, first, "two").outputs.at(0));
+  ASSERT_NE(two, nullptr);
+  const Dag alone = parse(sum, {{"a", two}});
+  const RunResult second = run(alone, cache);
+  EXPECT_EQ(of(alone, second, "sum").status, NodeStatus::hit);
+  EXPECT_EQ(of(alone, second, "sum").manifest, of(whole, first, "sum").manifest);
+  EXPECT_EQ(plan(alone, *cache, 0, {}).at(1).verdict, NodePlan::Verdict::hit);
+  EXPECT_EQ(toy::counters.add, 1);
+}
+
+TEST_F(GivenTest, must_fit_the_inputs_of_the_graph) {
+  EXPECT_EQ(problem(sum, {}), "input \"a\" (Numbers) is not connected");
+  EXPECT_EQ(problem(sum, {{"a", numbers({1})}, {"c", numbers({1})}}), "the graph has no input \"c\"");
+  const ArtifactPtr other = Artifact::seal("Letters", 1, {}, "{}", nullptr);
+  EXPECT_EQ(problem(sum, {{"a", other}}), "input \"a\" takes a Numbers, but the artifact is a Letters");
+  const ArtifactPtr newer = Artifact::seal("Numbers", 2, {}, "{}", nullptr);
+  EXPECT_EQ(problem(sum, {{"a", newer}}),
+            "\"inputs.a\" is a Numbers version 2, but input \"a\" of node \"sum\" (Add) takes version 1");
+}
+
+TEST_F(GivenTest, reach_the_nodes_of_subgraphs_and_loops) {
+  test::write_file(folder.file("body.json"), R"({
+    "inputs": { "n": { "type": "Numbers" }, "one": { "type": "Numbers" } },
+    "nodes": { "add": { "type": "Add", "inputs": { "a": "inputs.n", "b": "inputs.one" } } },
+    "outputs": { "n": "add.sum" } })");
+  test::write_file(folder.file("inner.json"), R"({
+    "inputs": { "from": { "type": "Numbers" }, "by": { "type": "Numbers" } },
+    "nodes": { "loop": { "loop": "body.json", "inputs": { "n": "inputs.from", "one": "inputs.by" },
+                         "until": "n.first >= 10" } },
+    "outputs": { "n": "loop.n" } })");
+  const Dag dag = parse(R"({
+    "inputs": { "a": { "type": "Numbers" }, "b": { "type": "Numbers" } },
+    "nodes": { "inner": { "graph": "inner.json", "inputs": { "from": "inputs.a", "by": "inputs.b" } } },
+    "outputs": { "n": "inner.n" } })",
+                        {{"a", numbers({4})}, {"b", numbers({4})}});
+  ASSERT_EQ(run(dag, Store::open({})).status, ExitCode::ok);
+  EXPECT_EQ(*static_cast<const double*>(output->find("values")->data), 12);
+}
+
+TEST_F(GivenTest, a_failed_node_leaves_its_inputs_in_the_store_even_if_nobody_had_stored_them) {
+  const auto cache = store();
+  const Dag dag = parse(R"({ "nodes": {
+      "much": { "type": "Source", "params": { "count": 3 } },
+      "fail": { "type": "Fail", "inputs": { "numbers": "much.numbers" } } },
+    "outputs": { "n": "fail.numbers" } })",
+                        {});
+  events.hear = [&](const Event& event) {
+    const bool fail_starts =
+        event.kind == Event::Kind::node_started && dag.nodes.at(event.node).path == "fail";
+    if (!fail_starts) return;
+    for (const auto& file : std::filesystem::recursive_directory_iterator(folder.file("cache/cas"))) {
+      if (file.is_regular_file()) std::filesystem::remove(file);
+    }
+  };
+  const RunResult result = run(dag, cache);
+  events.hear = {};
+  const NodeResult& failed = of(dag, result, "fail");
+  ASSERT_EQ(failed.status, NodeStatus::failed);
+  ASSERT_TRUE(failed.failed_call);
+  EXPECT_EQ(failed.failed_call->node, dag.find("fail"));
+  const OutputEntry& input = failed.failed_call->inputs.at("numbers");
+  EXPECT_EQ(input.digest, of(dag, result, "much").outputs.at(0).digest);
+  ASSERT_TRUE(cache->has_blob(input));
+
+  const Dag again = parse(R"({
+    "inputs": { "numbers": { "type": "Numbers" } },
+    "nodes": { "fail": { "type": "Fail", "inputs": { "numbers": "inputs.numbers" } } },
+    "outputs": { "n": "fail.numbers" } })",
+                          {{"numbers", cache->load(input)}});
+  const RunResult repeated = run(again, cache);
+  EXPECT_EQ(of(again, repeated, "fail").cause, failed.cause);
+}
+
+TEST_F(GivenTest, a_failure_in_nested_loops_leaves_the_state_of_that_iteration) {
+  test::write_file(folder.file("step.json"), R"({
+    "inputs": { "n": { "type": "Numbers" } },
+    "nodes": { "step": { "type": "Step", "inputs": { "numbers": "inputs.n" }, "params": { "fail_at": 7 } } },
+    "outputs": { "n": "step.numbers" } })");
+  test::write_file(folder.file("rounds.json"), R"({
+    "inputs": { "n": { "type": "Numbers" } },
+    "nodes": { "down": { "type": "Round", "inputs": { "numbers": "inputs.n" } },
+               "inner": { "loop": "step.json", "inputs": { "n": "down.rounded" }, "until": "n.first >= 20" } },
+    "outputs": { "n": "inner.n" } })");
+  const auto cache = store();
+  const Dag dag = parse(R"({ "nodes": {
+      "start": { "type": "Source", "params": { "value": 2.5, "count": 1 } },
+      "outer": { "loop": "rounds.json", "inputs": { "n": "start.numbers" }, "until": "n.first >= 10" } },
+    "outputs": { "n": "outer.n" } })",
+                        {});
+  const RunResult result = run(dag, cache);
+  const NodeResult& failed = of(dag, result, "outer");
+  ASSERT_EQ(failed.status, NodeStatus::failed);
+  ASSERT_TRUE(failed.failed_call);
+  EXPECT_EQ(failed.failed_call->node->path, "outer/inner/step");
+  const ArtifactPtr state = cache->load(failed.failed_call->inputs.at("numbers"));
+  ASSERT_NE(state, nullptr);
+  EXPECT_EQ(*static_cast<const double*>(state->find("values")->data), 7);
+}
+
+}  // namespace
+}  // namespace ballflow
