@@ -2,9 +2,11 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ballflow/graph.hpp"
@@ -16,6 +18,7 @@ namespace ballflow::cli {
 
 /// Options that several commands share.
 struct Common {
+  std::string program = "ballflow";  // as it was called
   std::vector<std::string> plugins;
   std::string cache, cache_size;
   bool no_cache = false;
@@ -32,14 +35,12 @@ struct GraphArguments {
   std::vector<std::string> sets, axes, inputs;
 
   void add_to(CLI::App& command);
+  std::vector<Override> overrides() const;  // of --set
   /// Reads and checks the graph, with what was set; prints its warnings.
   Dag load(const Registry& registry) const;
   /// The words of a command line that give the same graph, quoted for a shell.
   std::string words() const;
 };
-
-/// A word of a command line, quoted for a shell where it has to be.
-std::string quoted(const std::string& text);
 
 /// What decides how a graph runs.
 struct RunSettings {
@@ -66,7 +67,22 @@ void add_check(CLI::App& app, Common& common, Action& action);
 void add_nodes(CLI::App& app, Common& common, Action& action);
 void add_cache(CLI::App& app, Common& common, Action& action);
 void add_export(CLI::App& app, Common& common, Action& action);
+void add_graph(CLI::App& app, Common& common, Action& action);
+void add_plugins(CLI::App& app, Common& common, Action& action);
+void add_new_node(CLI::App& app, Common& common, Action& action);
+void add_explain(CLI::App& app, Common& common, Action& action);
+void add_exec_node(CLI::App& app, Common& common, Action& action);
 void add_version(CLI::App& app, Common& common, Action& action);
+
+/// "NAME=VALUE" of an option that is repeated; throws Error that shows how it is written.
+std::pair<std::string, std::string> split_setting(const std::string& option, const std::string& text,
+                                                  const std::string& example);
+
+/// A file, or the beginning of the digest of an artifact in the cache. Throws Error when it is neither.
+ArtifactPtr find_artifact(const Common& common, const std::string& name);
+
+/// A flag that becomes true at the first Ctrl-C or SIGTERM after this call; the second one ends the process.
+const std::atomic<bool>& cancel_on_signals();
 
 /// Prints rows as a table with aligned columns.
 void print_table(const std::vector<std::vector<std::string>>& rows);

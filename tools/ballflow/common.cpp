@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 
 #include "ballflow/gc.hpp"
 #include "ballflow/text.hpp"
@@ -22,6 +24,63 @@ std::uint64_t Common::cache_limit(Store& store) const {
   if (const auto limit = parse_size(size)) return *limit;
   throw Error(ExitCode::usage, (given ? "" : "BALLFLOW_CACHE_SIZE: ") + ("\"" + size + "\" is not a size"),
               "write it as 5G, 800M, 1.5T, a number of bytes, or none");
+}
+
+namespace {
+
+std::atomic<bool> cancel_requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+void on_interrupt(int signal_number) {
+  cancel_requested.store(true);
+  std::signal(signal_number, SIG_DFL);  // the second Ctrl-C ends the process at once; the store does not mind
+}
+
+}  // namespace
+
+const std::atomic<bool>& cancel_on_signals() {
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+  return cancel_requested;
+}
+
+ArtifactPtr find_artifact(const Common& common, const std::string& name) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  if (fs::is_regular_file(name, ignored)) return Artifact::map(name);
+  const bool hexadecimal = name.find_first_not_of("0123456789abcdef") == std::string::npos;
+  if (hexadecimal && name.size() >= 6 && name.size() <= 64) {
+    const auto store = common.store();
+    if (store->root().empty()) {
+      throw Error(ExitCode::usage, "there is no cache to look for " + name + " in: " + store->why(),
+                  "name its folder with --cache or $BALLFLOW_CACHE, or give a file");
+    }
+    const std::vector<Digest> found = find_artifacts(*store, name);
+    if (found.size() == 1) {
+      const std::string hex = found.front().hex();
+      const std::string path = (fs::path(store->root()) / "cas" / hex.substr(0, 2) / hex.substr(2)).string();
+      const ArtifactPtr artifact = Artifact::map(path);
+      if (artifact->digest() == found.front()) return artifact;
+      throw Error(ExitCode::store, path + " is damaged: its content has another digest than its name",
+                  "delete it; the next run that needs it makes it again");
+    }
+    if (found.size() > 1) {
+      throw Error(ExitCode::usage, "\"" + name + "\" is the beginning of several digests",
+                  "give more digits");
+    }
+  }
+  throw Error(ExitCode::usage, "there is no artifact \"" + name + "\"",
+              "give a file, or the digest of an artifact from a run report (6 digits or more)");
+}
+
+std::pair<std::string, std::string> split_setting(const std::string& option, const std::string& text,
+                                                  const std::string& example) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw Error(ExitCode::usage, option + " " + text + ": no \"=\" between a name and a value",
+                "write it as " + option + " " + example);
+  }
+  return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
 void GraphArguments::add_to(CLI::App& command) {
@@ -51,42 +110,29 @@ namespace {
 std::vector<Override> split(const char* option, const std::vector<std::string>& texts, const char* example) {
   std::vector<Override> result;
   for (const std::string& text : texts) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      throw Error(ExitCode::usage, std::string(option) + " " + text + ": no \"=\" between a name and a value",
-                  std::string("write it as ") + option + " " + example);
-    }
-    result.push_back({text.substr(0, equals), text.substr(equals + 1)});
+    auto [name, value] = split_setting(option, text, example);
+    result.push_back({std::move(name), std::move(value)});
   }
   return result;
 }
 
 }  // namespace
 
+std::vector<Override> GraphArguments::overrides() const { return split("--set", sets, "epsilon=0.5"); }
+
 Dag GraphArguments::load(const Registry& registry) const {
-  Dag dag = load_graph(file, registry, split("--set", sets, "epsilon=0.5"),
-                       {split("--axis", axes, "epsilon=0.1,0.3"), inputs});
+  Dag dag = load_graph(file, registry, overrides(), {split("--axis", axes, "epsilon=0.1,0.3"), inputs});
   for (const Diagnostic& warning : dag.warnings) std::fprintf(stderr, "%s\n", warning.text().c_str());
   return dag;
 }
 
 std::string GraphArguments::words() const {
-  std::string text = quoted(file);
-  for (const std::string& set : sets) text += " --set " + quoted(set);
-  for (const std::string& axis : axes) text += " --axis " + quoted(axis);
+  std::string text = shell_word(file);
+  for (const std::string& set : sets) text += " --set " + shell_word(set);
+  for (const std::string& axis : axes) text += " --axis " + shell_word(axis);
   if (!inputs.empty()) text += " --inputs";
-  for (const std::string& input : inputs) text += " " + quoted(input);
+  for (const std::string& input : inputs) text += " " + shell_word(input);
   return text;
-}
-
-std::string quoted(const std::string& text) {
-  if (text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+%@") ==
-      std::string::npos) {
-    return text;
-  }
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return result + "'";
 }
 
 void print_table(const std::vector<std::vector<std::string>>& rows) {

@@ -1,6 +1,4 @@
 #include <cstdio>
-#include <filesystem>
-#include <optional>
 
 #include "ballflow/text.hpp"
 #include "commands.hpp"
@@ -12,40 +10,6 @@ namespace {
 struct ExportArguments {
   std::string artifact, path, format;
 };
-
-/// A file, or the beginning of a digest of an artifact in the cache.
-ArtifactPtr find_artifact(const Common& common, const std::string& name) {
-  namespace fs = std::filesystem;
-  std::error_code ignored;
-  if (fs::is_regular_file(name, ignored)) return Artifact::map(name);
-  const bool hexadecimal = name.find_first_not_of("0123456789abcdef") == std::string::npos;
-  if (hexadecimal && name.size() >= 6 && name.size() <= 64) {
-    const auto store = common.store();
-    if (store->root().empty()) {
-      throw Error(ExitCode::usage, "there is no cache to look for " + name + " in: " + store->why(),
-                  "name its folder with --cache or $BALLFLOW_CACHE, or give a file");
-    }
-    std::vector<std::string> found;
-    const fs::path shard = fs::path(store->root()) / "cas" / name.substr(0, 2);
-    for (fs::directory_iterator file(shard, ignored), end; !ignored && file != end; file.increment(ignored)) {
-      const std::string digest = name.substr(0, 2) + file->path().filename().string();
-      if (digest.rfind(name, 0) == 0) found.push_back(digest);
-    }
-    if (found.size() == 1) {
-      const std::string path = (shard / found.front().substr(2)).string();
-      const ArtifactPtr artifact = Artifact::map(path);
-      if (artifact->digest().hex() == found.front()) return artifact;
-      throw Error(ExitCode::store, path + " is damaged: its content has another digest than its name",
-                  "delete it; the next run that needs it makes it again");
-    }
-    if (found.size() > 1) {
-      throw Error(ExitCode::usage, "\"" + name + "\" is the beginning of several digests",
-                  "give more digits");
-    }
-  }
-  throw Error(ExitCode::usage, "there is no artifact \"" + name + "\"",
-              "give a file, or the digest of an artifact from a run report (6 digits or more)");
-}
 
 std::string formats_help() {
   std::string text = "Formats by type, the default first:\n";

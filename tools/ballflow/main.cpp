@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
       "Exit codes: 0 ok, 2 wrong usage or graph, 3 a node failed, 4 cancelled, 5 store or files, 6 plugin.\n"
       "The cache is $BALLFLOW_CACHE, else ~/.cache/ballflow; it may be deleted at any time.");
   cli::Common common;
+  if (argc > 0) common.program = argv[0];
   app.add_option("--plugin", common.plugins,
                  "a node library, or a folder of them, to load besides the built-in ones")
       ->type_name("PATH");
@@ -30,6 +31,11 @@ int main(int argc, char** argv) {
   cli::add_nodes(app, common, action);
   cli::add_cache(app, common, action);
   cli::add_export(app, common, action);
+  cli::add_graph(app, common, action);
+  cli::add_plugins(app, common, action);
+  cli::add_new_node(app, common, action);
+  cli::add_explain(app, common, action);
+  cli::add_exec_node(app, common, action);
   cli::add_version(app, common, action);
 
   try {

@@ -8,6 +8,7 @@ namespace {
 
 struct NodesArguments {
   std::string describe;
+  std::string graphs;
   bool schema = false, graph_schema = false, markdown = false;
 };
 
@@ -65,7 +66,11 @@ int show_nodes(const Common& common, const NodesArguments& arguments) {
   } else if (arguments.graph_schema) {
     std::printf("%s\n", graph_schema(*registry).dump(2).c_str());
   } else if (arguments.markdown) {
-    std::printf("%s", nodes_markdown(*registry).c_str());
+    // Installed graphs are in share/ballflow, node libraries in lib/ballflow.
+    const std::string graphs = arguments.graphs.empty()
+                                   ? Registry::default_folder() + "/../../share/ballflow/graphs"
+                                   : arguments.graphs;
+    std::printf("%s", nodes_markdown(*registry, find_examples(graphs, *registry)).c_str());
   } else if (!arguments.describe.empty()) {
     const NodeDeclaration* node = registry->node(arguments.describe);
     if (node == nullptr) {
@@ -101,6 +106,10 @@ void add_nodes(CLI::App& app, Common& common, Action& action) {
   command->add_flag("--schema", arguments->schema, "print the JSON schema of all node types");
   command->add_flag("--graph-schema", arguments->graph_schema, "print the JSON schema of graph files");
   command->add_flag("--markdown", arguments->markdown, "print the documentation of all node types");
+  command
+      ->add_option("--graphs", arguments->graphs,
+                   "folder of the graphs that examples are taken from (default: the installed ones)")
+      ->type_name("DIR");
   command->callback([&common, &action, arguments] {
     action = [&common, arguments] { return show_nodes(common, *arguments); };
   });

@@ -28,13 +28,11 @@ int show_plan(const Common& common, const PlanArguments& arguments) {
     using Verdict = NodePlan::Verdict;
     const NodePlan& plan = plans[i];
     const double seconds = plan.seconds.value_or(0);
-    std::string verdict = "-", time, room, why = plan.reason;
+    std::string time, room, why = plan.reason;
     if (plan.verdict == Verdict::hit) {
-      verdict = "HIT";
       hit_seconds += seconds;
     } else if (plan.verdict != Verdict::unneeded) {
       const bool sure = plan.verdict == Verdict::run;
-      verdict = sure ? "RUN" : "MAYBE";
       (sure ? run_seconds : maybe_seconds) += seconds;
       time = plan.seconds ? "~" + duration(seconds) : "?";
       if (plan.seconds) why += " [time: " + plan.seconds_from + "]";
@@ -42,7 +40,7 @@ int show_plan(const Common& common, const PlanArguments& arguments) {
       if (plan.memory != 0) room = grouped(static_cast<std::int64_t>(plan.memory >> 20)) + " MB";
       memory = std::max(memory, plan.memory);
     }
-    rows.push_back({dag.nodes[i].path, verdict, time, room, why});
+    rows.push_back({dag.nodes[i].path, std::string(to_string(plan.verdict)), time, room, why});
   }
   print_table(rows);
   std::string total = "~" + duration(run_seconds) + " to compute, perhaps ~" + duration(maybe_seconds) +

@@ -17,19 +17,12 @@
 #include "compare.hpp"
 #include "event_lines.hpp"
 #include "export/export.hpp"
+#include "failure.hpp"
 #include "output_folder.hpp"
 #include "terminal.hpp"
 
 namespace ballflow::cli {
 namespace {
-
-std::atomic<bool> cancel_requested{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
-
-void on_interrupt(int signal_number) {
-  cancel_requested.store(true);
-  std::signal(signal_number, SIG_DFL);  // the second Ctrl-C ends the process at once; the store does not mind
-}
 
 struct RunArguments {
   GraphArguments graph;
@@ -52,30 +45,15 @@ class Sinks final : public EventSink {
   std::vector<std::unique_ptr<EventSink>> sinks_;
 };
 
-void print_failure(const Common& common, const RunArguments& arguments, const Dag& dag,
-                   const RunResult& result, std::size_t i) {
-  const DagNode& node = dag.nodes[i];
-  const NodeResult& failed = result.nodes[i];
-  std::fprintf(stderr, "\nnode %s (%s) failed: %s\n", node.path.c_str(), node.decl->id.c_str(),
-               printable(failed.cause).c_str());
-  if (!failed.hint.empty()) std::fprintf(stderr, "  what to do: %s\n", printable(failed.hint).c_str());
-  for (const auto& [name, value] : node.params) {
-    std::fprintf(stderr, "  param %s = %s\n", name.c_str(), printable(plain(value)).c_str());
-  }
-  for (const auto& [port, edge] : node.inputs) {
-    for (const OutputEntry& entry : result.nodes[edge.node].outputs) {
-      if (entry.port != edge.port) continue;
-      std::fprintf(stderr, "  input %s = %s.%s, %s, %s\n", port.c_str(), dag.nodes[edge.node].path.c_str(),
-                   edge.port.c_str(), describe(entry).c_str(), entry.digest.hex().substr(0, 16).c_str());
-    }
-  }
-  std::string again = "ballflow";
-  for (const std::string& plugin : common.plugins) again += " --plugin " + quoted(plugin);
-  again += " run " + arguments.graph.words();
-  if (!common.cache.empty()) again += " --cache " + quoted(common.cache);
-  if (common.no_cache) again += " --no-cache";
-  if (arguments.settings.seed != 0) again += " --seed " + std::to_string(arguments.settings.seed);
-  std::fprintf(stderr, "  again, from this node on: %s\n", printable(again).c_str());
+/// The command that runs the graph again; what was finished comes from the cache.
+std::string again(const Common& common, const RunArguments& arguments) {
+  std::string line = shell_word(common.program);
+  for (const std::string& plugin : common.plugins) line += " --plugin " + shell_word(plugin);
+  line += " run " + arguments.graph.words();
+  if (!common.cache.empty()) line += " --cache " + shell_word(common.cache);
+  if (common.no_cache) line += " --no-cache";
+  if (arguments.settings.seed != 0) line += " --seed " + std::to_string(arguments.settings.seed);
+  return line;
 }
 
 void print_totals(const RunResult& result) {
@@ -176,12 +154,8 @@ void check_writable(const std::string& option, const std::string& path) {
 int run(const Common& common, const RunArguments& arguments) {
   std::map<std::string, std::string> formats;
   for (const std::string& format : arguments.formats) {
-    const std::size_t equals = format.find('=');
-    if (equals == std::string::npos) {
-      throw Error(ExitCode::usage, "--format " + format + ": no \"=\" between an output and a format",
-                  "write it as --format balls=csv");
-    }
-    formats[format.substr(0, equals)] = format.substr(equals + 1);
+    auto [output, name] = split_setting("--format", format, "balls=csv");
+    formats[output] = std::move(name);
   }
   const auto registry = common.registry();
   const Dag dag = arguments.graph.load(*registry);
@@ -189,6 +163,7 @@ int run(const Common& common, const RunArguments& arguments) {
     throw Error(ExitCode::usage, arguments.graph.file + " has no \"sweep\"",
                 "say what to sweep over: --axis NAME=VALUE,VALUE, or --inputs 'PATTERN' for files");
   }
+  const std::vector<Override> overrides = arguments.graph.overrides();
   check_formats(dag, formats);
   // A folder of results says what they are results of.
   const std::string report_path = !arguments.report.empty() || arguments.out.empty() || dag.variants.empty()
@@ -207,11 +182,10 @@ int run(const Common& common, const RunArguments& arguments) {
   const std::string id = new_run_id(arguments.graph.file);
   const KeepWithin collect_at_the_end(store, common.cache_limit(*store));
 
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
+  const std::atomic<bool>& cancel = cancel_on_signals();
   // Who reads the progress may go; the results are wanted nevertheless.
   const auto on_broken_pipe = std::signal(SIGPIPE, SIG_IGN);
-  options.cancel = &cancel_requested;
+  options.cancel = &cancel;
   Sinks sinks;
   if (!arguments.quiet) sinks.add(progress_display(dag, isatty(STDERR_FILENO) != 0));
   if (arguments.json) sinks.add(event_lines(dag));
@@ -285,7 +259,10 @@ int run(const Common& common, const RunArguments& arguments) {
     for (const std::string& line : records) std::printf("%s\n", printable(line).c_str());
   }
   for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
-    if (result.nodes[i].status == NodeStatus::failed) print_failure(common, arguments, dag, result, i);
+    if (result.nodes[i].status != NodeStatus::failed) continue;
+    const FailedRun failed{common, *registry, dag, *store, arguments.settings.seed, overrides};
+    std::fprintf(stderr, "\n%s  again, from this node on: %s\n", failure_text(failed, result, i).c_str(),
+                 again(common, arguments).c_str());
   }
   for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
     if (result.nodes[i].deterministic || result.nodes[i].status == NodeStatus::failed) continue;
