@@ -35,11 +35,13 @@ endforeach()
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/ballflow)
 install(EXPORT ballflowTargets NAMESPACE ballflow:: DESTINATION ${package_dir})
+set(program ${CMAKE_INSTALL_BINDIR}/ballflow)
 configure_package_config_file(cmake/ballflowConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/cmake/ballflowConfig.cmake
-  INSTALL_DESTINATION ${package_dir})
+  INSTALL_DESTINATION ${package_dir} PATH_VARS program)
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/cmake/ballflowConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES
+  cmake/BallflowNodeLibrary.cmake
   ${CMAKE_CURRENT_BINARY_DIR}/cmake/ballflowConfig.cmake
   ${CMAKE_CURRENT_BINARY_DIR}/cmake/ballflowConfigVersion.cmake
   DESTINATION ${package_dir})
