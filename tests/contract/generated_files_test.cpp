@@ -22,7 +22,9 @@ void expect_current(const std::string& path, const std::string& content) {
 }
 
 TEST(GeneratedFiles, node_pages_are_current) {
-  expect_current("nodes/README.md", nodes_markdown(*Registry::load()));
+  const auto registry = Registry::load();
+  expect_current("nodes/README.md",
+                 nodes_markdown(*registry, find_examples(test::source_file("graphs"), *registry)));
 }
 
 TEST(GeneratedFiles, schema_of_nodes_is_current) {

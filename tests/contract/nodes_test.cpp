@@ -7,10 +7,16 @@
 
 #include "ballflow/registry.hpp"
 #include "ballflow/run.hpp"
+#include "ballflow/schema.hpp"
 #include "test_data.hpp"
 
 namespace ballflow {
 namespace {
+
+class Silent final : public EventSink {
+ public:
+  void on(const Event&) override {}
+};
 
 const Registry& registry() {
   static const auto instance = Registry::load();
@@ -89,6 +95,10 @@ TEST(Registry, loads_the_nodes_of_the_thesis) {
     EXPECT_EQ(candidate.refused, "") << candidate.path;
 }
 
+TEST_P(EveryNode, has_an_id_without_a_dot_because_namespaces_belong_to_others) {
+  EXPECT_EQ(GetParam().find('.'), std::string::npos);
+}
+
 TEST_P(EveryNode, is_documented) {
   EXPECT_GT(node().summary.size(), 10u);
   EXPECT_GT(node().doc.size(), 40u) << "say what it accepts and refuses";
@@ -127,6 +137,13 @@ TEST_P(EveryNode, is_used_by_a_graph) {
   bool used = false;
   for (const std::string& file : graph_files()) used = used || std::regex_search(test::read_file(file), use);
   EXPECT_TRUE(used);
+}
+
+TEST_P(EveryNode, has_an_example_that_the_schemas_and_the_tests_of_graphs_know) {
+  const auto examples = find_examples(test::source_file("graphs"), registry());
+  ASSERT_EQ(examples.count(GetParam()), 1u);
+  const NodeExample& example = examples.at(GetParam());
+  EXPECT_EQ(example.entry.front().at("type"), GetParam());
 }
 
 TEST_P(EveryNode, has_types_that_are_registered_with_the_same_version) {
@@ -170,6 +187,25 @@ TEST_P(EveryNode, refuses_parameters_outside_their_range) {
 
 INSTANTIATE_TEST_SUITE_P(Nodes, EveryNode, testing::ValuesIn(node_ids()),
                          [](const auto& instance) { return instance.param; });
+
+/// What the pages of the nodes say can be typed runs, with a small model in place of the usual one.
+TEST(Examples, run) {
+  std::map<std::string, std::vector<Override>> commands;
+  for (const auto& [id, example] : find_examples(test::source_file("graphs"), registry())) {
+    std::string name = example.graph;
+    for (const Override& set : example.overrides) name += " " + set.name + "=" + set.value;
+    std::vector<Override> overrides = example.overrides;
+    const std::string file = test::source_file("graphs/" + example.graph);
+    if (load_graph(file, registry()).params.contains("input"))
+      overrides.push_back({"input", "shape:torus?n=600"});
+    if (!commands.emplace(name, overrides).second) continue;
+    const Dag dag = load_graph(file, registry(), overrides);
+    Silent events;
+    Runner runner(dag, registry(), Store::open({}), {}, events);
+    EXPECT_EQ(runner.run().status, ExitCode::ok) << name;
+  }
+  EXPECT_GE(commands.size(), 3u);
+}
 
 TEST(EveryType, is_documented) {
   for (const auto& [id, type] : registry().types()) {
