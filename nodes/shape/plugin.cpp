@@ -6,12 +6,15 @@
 namespace ballflow::nodes {
 const bf_node* alpha_shape_entry();
 const bf_node* medial_axis_entry();
+const bf_node* compare_entry();
 }  // namespace ballflow::nodes
 
 BALLFLOW_PLUGIN("shape", "0.1.0",
                 (std::vector<const bf_node*>{
                     ballflow::nodes::alpha_shape_entry(),
                     ballflow::nodes::medial_axis_entry(),
+                    ballflow::nodes::compare_entry(),
                 }),
                 (ballflow::type_entries<ballflow::geometry::Balls, ballflow::geometry::SimplicialComplex,
-                                        ballflow::geometry::MedialAxis>()))
+                                        ballflow::geometry::MedialAxis, ballflow::geometry::PointSet,
+                                        ballflow::geometry::TriangleMesh, ballflow::geometry::Comparison>()))

@@ -5,6 +5,7 @@
 #include <ballflow/sdk.hpp>
 
 #include "types/balls.hpp"
+#include "types/comparison.hpp"
 #include "types/cover_check.hpp"
 #include "types/cover_state.hpp"
 #include "types/medial_axis.hpp"
@@ -56,6 +57,11 @@ struct TypeOf<geometry::CoverState> {
 template <>
 struct TypeOf<geometry::CoverCheck> {
   static void declare(TypeDecl<geometry::CoverCheck>& d);
+};
+
+template <>
+struct TypeOf<geometry::Comparison> {
+  static void declare(TypeDecl<geometry::Comparison>& d);
 };
 
 template <>

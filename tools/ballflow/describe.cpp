@@ -57,6 +57,22 @@ std::string complex(const Json& s) {
   return text;
 }
 
+std::string comparison(const Json& s) {
+  const auto rounded = [&](const char* field) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", s.at(field).get<double>());
+    return std::string(text);
+  };
+  std::string text = "Hausdorff distance " + rounded("hausdorff") + " (at most " +
+                     rounded("hausdorff_at_most") + "), mean " + rounded("chamfer");
+  if (s.at("volume_error").is_number()) {
+    char percent[32];
+    std::snprintf(percent, sizeof percent, "%+.2f %%", 100 * s.at("volume_error").get<double>());
+    text += ", volume " + std::string(percent);
+  }
+  return text;
+}
+
 std::string axis(const Json& s) {
   return counted(s, "polygons", "polygon") + ", " + counted(s, "edges", "free edge") +
          ", Euler characteristic " + number(s, "euler_characteristic");
@@ -99,6 +115,7 @@ std::string describe(const OutputEntry& output) {
        [](const Json& s) {
          return number(s, "covered") + " of " + number(s, "samples") + " samples covered";
        }},
+      {"Comparison", comparison},
       {"SimplicialComplex", complex},
       {"MedialAxis", axis},
   };

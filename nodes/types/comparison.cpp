@@ -1,0 +1,35 @@
+#include "types/comparison.hpp"
+
+#include <algorithm>
+
+namespace ballflow::geometry {
+namespace {
+
+bool in_order(double a, double b, double c) { return 0 <= a && a <= b && b <= c; }
+
+bool sound(const OneSidedDistance& d) { return in_order(d.at_least, d.value, d.at_most) && 0 <= d.mean; }
+
+}  // namespace
+
+double Comparison::hausdorff() const { return std::max(surface_to_union.value, union_to_surface.value); }
+double Comparison::hausdorff_at_most() const {
+  return std::max(surface_to_union.at_most, union_to_surface.at_most);
+}
+
+std::string broken_invariant(const Comparison& c) {
+  if (c.surface_samples < 0 || c.union_samples < 0) return "a number of samples is negative";
+  if (!(c.spacing >= 0)) return "the spacing is not at least 0";
+  if (!sound(c.surface_to_union))
+    return "the bounds of the distance from the surface to the union are not in order";
+  if (!sound(c.union_to_surface))
+    return "the bounds of the distance from the union to the surface are not in order";
+  if (!(c.coverage >= 0 && c.coverage <= 1)) return "the coverage is not in [0, 1]";
+  if (!(c.uncovered >= 0 && c.protrusion >= 0)) return "uncovered or protrusion is negative";
+  if (!in_order(c.union_volume_at_least, c.union_volume, c.union_volume_at_most)) {
+    return "the bounds of the volume of the union are not in order";
+  }
+  if (c.surface_encloses > 1) return "surface_encloses is neither 0 nor 1";
+  return {};
+}
+
+}  // namespace ballflow::geometry
