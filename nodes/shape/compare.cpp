@@ -195,7 +195,8 @@ class SphereSampler {
         radius_(balls.radii[i]),
         samples_(samples) {
     if (radius_ == 0) {
-      add(center_, 0, all_.depth(center_, infinity, -spacing_, ball_));
+      const double depth = all_.depth(center_, infinity, -tolerance_, ball_);
+      if (depth >= -tolerance_) add(center_, 0, depth);
       return;
     }
     for (const double x : {-1.0, 1.0}) {
@@ -209,13 +210,14 @@ class SphereSampler {
   /// A triangle of a face |x| + |y| + |z| = 1, which is seen from the centre under about the angle
   /// weight / |centroid|^3.
   void split(Vec3 a, Vec3 b, Vec3 c, double weight) {
-    if (++patches_ % 1024 == 0) budget_.spend(1024);
+    if (++patches_ % 256 == 0) budget_.spend(256);
     const Vec3 centroid = (1.0 / 3) * (a + b + c), direction = unit(centroid);
     const double reach = radius_ * std::max({distance(unit(a), direction), distance(unit(b), direction),
                                              distance(unit(c), direction)});
     const Vec3 position = center_ + radius_ * direction;
-    const double depth = all_.depth(position, infinity, -(reach + spacing_), ball_);
-    if (depth < -(reach + spacing_)) return;  // so is every boundary point near this part
+    const double deep = -reach - tolerance_;
+    const double depth = all_.depth(position, infinity, deep, ball_);
+    if (depth < deep) return;  // so the whole part is inside that ball
     if (reach <= spacing_) {
       const double norm = length(centroid);
       add(position, radius_ * radius_ * weight / (norm * norm * norm), depth);
@@ -229,7 +231,6 @@ class SphereSampler {
   }
 
   void add(Vec3 position, double area, double depth) {
-    if (depth < -spacing_) return;
     samples_.positions.push_back(position);
     samples_.areas.push_back(area);
     samples_.on_boundary.push_back(depth >= -tolerance_ ? 1 : 0);
@@ -396,6 +397,7 @@ Comparison compare(const Balls& balls, const PointSet& points, const TriangleMes
   const Tally from_surface =
       merged(by_blocks<Tally>(surface.parts(), monitor, 0.3, 0.5, [&](std::size_t t, Tally& tally) {
         surface.sample(t, result.spacing, [&](Vec3 p, double area) {
+          if (tally.count % 64 == 63 && monitor.cancelled()) throw Cancelled();
           const double depth = all.depth(p);
           // Inside, the ball in which p is deepest has no boundary of the union in it. Near the centre of a
           // ball all its boundary is about as near: the search may end close above that bound.
