@@ -338,6 +338,9 @@ ArrayPlace read_array(const std::string& name, const SortedJson& entry) {
   return place;
 }
 
+/// Thrown out of the computation of a digest that nobody wants any more.
+struct GivenUp {};
+
 std::string system_message(int error) { return std::generic_category().message(error); }
 
 }  // namespace
@@ -508,30 +511,47 @@ const NamedArray* Artifact::find(std::string_view name) const {
 }
 
 const Digest& Artifact::digest() const {
-  std::call_once(digest_once_, [this] {
+  compute_digest(nullptr);
+  return digest_;
+}
+
+bool Artifact::hash(const std::function<bool()>& give_up) const {
+  try {
+    compute_digest(&give_up);
+    return true;
+  } catch (const GivenUp&) {
+    return false;
+  }
+}
+
+void Artifact::compute_digest(const std::function<bool()>* give_up) const {
+  // An exception leaves the flags unset: who asks next begins anew.
+  std::call_once(digest_once_, [&] {
     // Who wants the digest soon wants the checksum: both sums of a chunk while it is in the processor's
     // cache.
-    constexpr std::size_t chunk = 128 << 10;
+    constexpr std::size_t chunk = 128 << 10, chunks_between_looks = 64;
     Hasher digest;
-    bool both = false;
-    std::call_once(checksum_once_, [&] {
-      Checksummer checksum;
+    std::size_t chunks = 0;
+    const auto add = [&](Checksummer* checksum) {
       for (const std::span<const std::byte> piece : pieces()) {
         for (std::size_t at = 0; at < piece.size(); at += chunk) {
+          if (++chunks % chunks_between_looks == 0 && give_up != nullptr && (*give_up)()) throw GivenUp();
           const std::size_t size = std::min(chunk, piece.size() - at);
-          checksum.add(piece.data() + at, size);
+          if (checksum != nullptr) checksum->add(piece.data() + at, size);
           digest.add(piece.data() + at, size);
         }
       }
+    };
+    bool both = false;
+    std::call_once(checksum_once_, [&] {
+      Checksummer checksum;
+      add(&checksum);
       checksum_ = checksum.finish();
       both = true;
     });
-    if (!both) {
-      for (const std::span<const std::byte> piece : pieces()) digest.add(piece.data(), piece.size());
-    }
+    if (!both) add(nullptr);
     digest_ = digest.finish();
   });
-  return digest_;
 }
 
 Checksum Artifact::checksum() const {

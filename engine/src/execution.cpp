@@ -18,6 +18,9 @@ bool worth_storing(std::uint64_t bytes, double seconds) {
   return bytes <= always || seconds * bytes_per_second >= static_cast<double>(bytes);
 }
 
+/// Bytes that are still written when the run was cancelled meanwhile.
+constexpr std::uint64_t worth_waiting_for = 64u << 20;
+
 /// Nodes slower than this are flushed to the disk before they are published.
 constexpr double sync_seconds = 1.0;
 
@@ -134,6 +137,7 @@ std::vector<OutputEntry> Runner::Impl::publish(std::size_t i, const NodeRunOutco
   for (const auto& [port, artifact] : outcome.outputs) {
     entry.outputs.push_back(output_entry(port, *artifact));
     if (store_->read_only() || !worth_storing(artifact->file_size(), outcome.seconds)) continue;
+    if (cancelled() && artifact->file_size() > worth_waiting_for) continue;
     Event event{Event::Kind::cache_write, i};
     event.text = dag_.nodes[i].path + "." + port;
     event.bytes = artifact->file_size();

@@ -15,9 +15,16 @@ std::string megabytes(std::uint64_t bytes) {
   return text;
 }
 
+std::string identity_of(const Json& manifest) {
+  std::string text;
+  for (const char* field : {"version", "params", "body"}) text += manifest.value(field, Json()).dump() + '\n';
+  return text;
+}
+
 }  // namespace
 
 const std::vector<Past::Execution>& Past::executions_of(const std::string& node) {
+  constexpr std::size_t most = 200;
   if (!contents_) {
     contents_ = read_contents(store_);
     for (const CachedAction& action : contents_->actions) {
@@ -25,30 +32,28 @@ const std::vector<Past::Execution>& Past::executions_of(const std::string& node)
     }
   }
   const auto [found, first] = executions_.try_emplace(node);
-  if (!first) return found->second;
-  for (const CachedAction& action : contents_->actions) {
-    if (action.node != node) continue;
-    const auto entry = store_.peek_action(action.key);
-    if (!entry) continue;
-    Execution execution{&action, Json::parse(entry->manifest, nullptr, false), 0};
-    if (!execution.manifest.is_object() || !execution.manifest.contains("inputs")) continue;
-    for (const auto& [port, input] : execution.manifest["inputs"].items()) {
+  std::vector<Execution>& executions = found->second;
+  if (!first) return executions;
+  for (auto action = contents_->actions.rbegin(); action != contents_->actions.rend(); ++action) {
+    if (action->node != node || executions.size() == most) continue;
+    const auto entry = store_.peek_action(action->key);
+    const Json manifest = entry ? Json::parse(entry->manifest, nullptr, false) : Json();
+    if (!manifest.is_object() || !manifest.contains("inputs")) continue;
+    Execution execution{&*action, identity_of(manifest), 0};
+    for (const auto& [port, input] : manifest["inputs"].items()) {
       const auto size = size_of_.find(input.value("digest", ""));
       execution.input_bytes += size == size_of_.end() ? 0 : size->second;
     }
-    found->second.push_back(std::move(execution));
+    executions.push_back(std::move(execution));
   }
-  return found->second;
+  return executions;
 }
 
 std::optional<Past::Guess> Past::guess(const std::string& text, std::uint64_t input_bytes) {
   const Json manifest = Json::parse(text, nullptr, false);
   if (!manifest.is_object()) return std::nullopt;
-  const auto alike = [&manifest](const Execution& execution) {
-    return execution.manifest.value("params", Json()) == manifest.value("params", Json()) &&
-           execution.manifest.value("version", 0) == manifest.value("version", 0) &&
-           execution.manifest.value("body", Json()) == manifest.value("body", Json());
-  };
+  const std::string identity = identity_of(manifest);
+  const auto alike = [&identity](const Execution& execution) { return execution.identity == identity; };
   const auto distance = [input_bytes](const Execution& execution) {
     if (input_bytes == 0 || execution.input_bytes == 0) return 1e9;
     return std::abs(std::log(static_cast<double>(input_bytes) / static_cast<double>(execution.input_bytes)));
@@ -56,7 +61,7 @@ std::optional<Past::Guess> Past::guess(const std::string& text, std::uint64_t in
   const Execution* best = nullptr;
   for (const Execution& execution : executions_of(manifest.value("node", ""))) {
     const auto rank = [&](const Execution& e) {
-      return std::tuple(!alike(e), distance(e), -e.action->last_use, e.action->key.hex());
+      return std::tuple(!alike(e), distance(e), -e.action->last_use, e.action->key);
     };
     if (best == nullptr || rank(execution) < rank(*best)) best = &execution;
   }

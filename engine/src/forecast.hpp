@@ -21,14 +21,14 @@ class Past {
     std::string from;                            // "same parameters, 12 MB of input instead of 3 MB"
     std::map<std::string, std::uint64_t> bytes;  // of the outputs, by port
   };
-  /// A guess for the node with this key manifest (its inputs do not matter) and so many bytes of inputs (0:
-  /// not known).
+  /// A guess from the most recently used executions for the node with this key manifest (its inputs do not
+  /// matter) and so many bytes of inputs (0: not known).
   std::optional<Guess> guess(const std::string& manifest, std::uint64_t input_bytes);
 
  private:
   struct Execution {
     const CachedAction* action = nullptr;
-    Json manifest;
+    std::string identity;           // of the node: parameters, version and body
     std::uint64_t input_bytes = 0;  // 0: not known
   };
   const std::vector<Execution>& executions_of(const std::string& node);

@@ -242,14 +242,17 @@ class Host {
 
 }  // namespace
 
-NodeRunOutcome run_in_arena(unsigned threads, const std::function<NodeRunOutcome()>& work) {
+NodeRunOutcome run_in_arena(const NodeRunRequest& request, const std::function<NodeRunOutcome()>& work) {
   const auto start = std::chrono::steady_clock::now();
-  std::unique_ptr<Arenas::Arena> place = Arenas::instance().take(threads);
+  std::unique_ptr<Arenas::Arena> place = Arenas::instance().take(request.threads);
   const double cpu = place->meter.total();
   NodeRunOutcome outcome;
   place->arena.execute([&] {
     outcome = work();
-    for (const auto& [port, artifact] : outcome.outputs) artifact->digest();
+    for (const auto& [port, artifact] : outcome.outputs) {
+      if (!artifact->hash(request.cancelled)) outcome.status = NodeRunOutcome::Status::cancelled;
+    }
+    if (outcome.status != NodeRunOutcome::Status::ok) outcome.outputs.clear();
   });
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   outcome.cpu_seconds = place->meter.total() - cpu;
@@ -258,7 +261,7 @@ NodeRunOutcome run_in_arena(unsigned threads, const std::function<NodeRunOutcome
 }
 
 NodeRunOutcome run_node(const NodeRunRequest& request) {
-  return run_in_arena(request.threads, [&] { return call_node(request); });
+  return run_in_arena(request, [&] { return call_node(request); });
 }
 
 NodeRunOutcome call_node(const NodeRunRequest& request) {

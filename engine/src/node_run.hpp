@@ -47,7 +47,7 @@ NodeRunOutcome run_node(const NodeRunRequest& request);
 /// The same in the arena of the caller, without times; outputs are not hashed.
 NodeRunOutcome call_node(const NodeRunRequest& request);
 
-/// Does `work` in an arena of its own, hashes its outputs, and takes its times.
-NodeRunOutcome run_in_arena(unsigned threads, const std::function<NodeRunOutcome()>& work);
+/// Does `work` for `request` in an arena of its own, hashes its outputs, and takes its times.
+NodeRunOutcome run_in_arena(const NodeRunRequest& request, const std::function<NodeRunOutcome()>& work);
 
 }  // namespace ballflow

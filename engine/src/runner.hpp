@@ -78,6 +78,7 @@ class Runner::Impl {
   bool admit(std::size_t i);
   void dismiss(std::size_t i);
   std::uint64_t memory_estimate(std::size_t i);
+  bool is_at_hand(const EdgeRef& edge, const OutputEntry& entry);
   void adopt(std::size_t i, const ActionEntry& entry, const std::string& reason);
   std::string why(std::size_t i) const;
   void settle(std::size_t i, NodeStatus status, const std::string& reason);

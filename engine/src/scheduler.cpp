@@ -353,21 +353,32 @@ void Runner::Impl::dismiss(std::size_t i) {
 /// Of the node, or of one that has to be run again before it for a lost artifact, whichever is more: they run
 /// one after the other.
 std::uint64_t Runner::Impl::memory_estimate(std::size_t i) {
-  const NodeDeclaration& decl = *dag_.nodes[i].decl;
-  std::uint64_t bytes = 0, before = 0;
-  for (const auto& [port, edge] : dag_.nodes[i].inputs) {
-    const OutputEntry* entry = find_output(result_.nodes[edge.node].outputs, edge.port);
-    if (entry == nullptr) continue;
-    bytes += entry->bytes;
-    bool held = false;
-    {
-      const std::lock_guard lock(states_[edge.node]->mutex);
-      held = states_[edge.node]->held.count(edge.port) != 0;
+  std::uint64_t most = 0;
+  std::set<std::size_t> seen{i};
+  std::vector<std::size_t> left{i};
+  while (!left.empty()) {
+    const DagNode& node = dag_.nodes[left.back()];
+    left.pop_back();
+    std::uint64_t bytes = 0;
+    for (const auto& [port, edge] : node.inputs) {
+      const OutputEntry* entry = find_output(result_.nodes[edge.node].outputs, edge.port);
+      if (entry == nullptr) continue;
+      bytes += entry->bytes;
+      if (!is_at_hand(edge, *entry) && seen.insert(edge.node).second) left.push_back(edge.node);
     }
-    if (!held && !store_->has_blob(*entry)) before = std::max(before, memory_estimate(edge.node));
+    const double scaled = node.decl->memory_per_input_byte * static_cast<double>(bytes);
+    most = std::max(most, node.decl->memory_fixed + static_cast<std::uint64_t>(scaled));
   }
-  const auto own = static_cast<std::uint64_t>(decl.memory_per_input_byte * static_cast<double>(bytes));
-  return std::max(before, decl.memory_fixed + own);
+  return most;
+}
+
+/// Whether the artifact is in memory or in the store.
+bool Runner::Impl::is_at_hand(const EdgeRef& edge, const OutputEntry& entry) {
+  {
+    const std::lock_guard lock(states_[edge.node]->mutex);
+    if (states_[edge.node]->held.count(edge.port) != 0) return true;
+  }
+  return store_->has_blob(entry);
 }
 
 void Runner::Impl::adopt(std::size_t i, const ActionEntry& entry, const std::string& reason) {

@@ -18,6 +18,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -86,6 +87,8 @@ class Artifact {
   const std::string& summary() const { return summary_; }  // canonical JSON object
   const Digest& digest() const;                            // computed on first use
   Checksum checksum() const;                               // computed on first use, or with the digest
+  /// Computes both, and looks at `give_up` every few milliseconds; false when it said so.
+  bool hash(const std::function<bool()>& give_up) const;
   std::uint64_t file_size() const { return file_size_; }
 
   /// The file as a list of pieces, to be written one after the other.
@@ -94,6 +97,7 @@ class Artifact {
  private:
   friend class Store;  // knows the digest of what it loads
   Artifact() = default;
+  void compute_digest(const std::function<bool()>* give_up) const;
   void settle(const Digest& known) const;
   void settle(const Checksum& known) const;
 
