@@ -8,13 +8,20 @@ namespace ballflow::geometry {
 
 // The incremental components of Boost.Graph, on the columns alone: a row joins all its columns. The graph
 // itself, with millions of edges, is never built.
-Components components(const CoverState& state) {
+Components components(const CoverState& state, Monitor& monitor) {
   const std::size_t cols = state.cols();
   std::vector<std::int32_t> rank(cols), parent(cols);
   std::iota(parent.begin(), parent.end(), 0);
   boost::disjoint_sets sets(rank.data(), parent.data());
+  constexpr std::size_t entries_between_looks = 1 << 20;
+  std::size_t entries = 0;
   for (std::size_t i = 0; i < state.rows(); ++i) {
     const auto row = state.row(i);
+    entries += row.size();
+    if (entries >= entries_between_looks) {
+      if (monitor.cancelled()) throw Cancelled();
+      entries = 0;
+    }
     for (std::size_t k = 1; k < row.size(); ++k) sets.union_set(row[0], row[k]);
   }
 

@@ -6,6 +6,7 @@
 
 #include "cover/residual.hpp"
 #include "types/cover_state.hpp"
+#include "types/monitor.hpp"
 
 namespace ballflow::geometry {
 
@@ -20,7 +21,7 @@ struct Components {
   std::size_t count() const { return rows.size(); }
 };
 
-Components components(const CoverState& state);
+Components components(const CoverState& state, Monitor& monitor = no_monitor());
 
 /// One component as a matrix of its own: row i of it is row row_ids[i] of the whole, column c is column
 /// column_ids[c]; both ascend.

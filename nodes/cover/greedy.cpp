@@ -47,7 +47,7 @@ CoverState greedy(const CoverState& state, const GreedyOptions& options, Monitor
     return next;
   }
 
-  const Components parts = components(state);
+  const Components parts = components(state, monitor);
   const std::vector<std::int32_t> longest = longest_rows(state, parts);
   CoverState bounded = state;
   raise_lower_bound(bounded, optimal_choices(state) + component_bound(state, parts, longest),

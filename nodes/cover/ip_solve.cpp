@@ -174,7 +174,7 @@ CoverState ip_solve(const CoverState& state, IpSolver& solver, const IpSolveOpti
                     Monitor& monitor, const CoverState* known_cover) {
   monitor.step(0);
   const Known known(state, known_cover);
-  const Components parts = components(state);
+  const Components parts = components(state, monitor);
   const Csr rows_in = grouped(parts.of_row, parts.rows), columns_in = grouped(parts.of_column, parts.columns);
   Ids chosen, number(state.cols());
   std::vector<Choice> chosen_how;

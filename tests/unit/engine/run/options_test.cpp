@@ -157,6 +157,28 @@ TEST_F(OptionsTest, a_lost_artifact_is_made_again_within_the_budget) {
   EXPECT_EQ(toy::counters.heavy_most, 1);
 }
 
+TEST_F(OptionsTest, a_ladder_of_lost_artifacts_is_made_again_in_linear_time) {
+  Dag dag;  // every node reads both of the level before
+  std::size_t a = node(dag, "a", "Source"), b = node(dag, "b", "Source", {}, {{"value", 2.0}});
+  std::string port = "numbers";
+  for (int level = 0; level < 40; ++level) {
+    const std::string number = std::to_string(level);
+    const auto left = node(dag, "l" + number, "Add", {{"a", {a, port}}, {"b", {b, port}}});
+    const auto right = node(dag, "r" + number, "Add", {{"a", {b, port}}, {"b", {left, "sum"}}});
+    a = left;
+    b = right;
+    port = "sum";
+  }
+  const auto round = node(dag, "round", "Round", {{"numbers", {b, "sum"}}});
+  dag.outputs.push_back({"sum", "", {b, "sum"}});
+  run(dag, store());
+  std::filesystem::remove_all(folder.path() + "/cache/cas");
+  toy::reset();
+  dag.outputs = {{"round", "", {round, "rounded"}}};
+  EXPECT_EQ(run(dag, store()).status, ExitCode::ok);
+  EXPECT_EQ(toy::counters.add, 80);
+}
+
 TEST_F(OptionsTest, another_result_of_a_forced_node_replaces_its_entry_with_a_warning) {
   run(noisy_sum(2), store());
   RunOptions options;
@@ -245,6 +267,20 @@ TEST_F(OptionsTest, the_determinism_check_works_without_a_cache) {
   options.check_determinism = true;
   EXPECT_EQ(run_with(diamond(1.5, 2), options, Store::open({})).status, ExitCode::ok);
   EXPECT_EQ(toy::counters.source, 6) << "twice more each: inputs are kept";
+}
+
+TEST_F(OptionsTest, a_node_whose_outputs_are_being_hashed_when_the_run_is_cancelled_is_cancelled) {
+  Dag dag;
+  const auto source = node(dag, "source", "Source", {}, {{"count", 4'000'000}});
+  dag.outputs.push_back({"numbers", "", {source, "numbers"}});
+  std::atomic<bool> cancel{false};
+  events.on_start = [&] { cancel = true; };  // the node itself does not look
+  RunOptions options;
+  options.cancel = &cancel;
+  const RunResult result = run_with(dag, options);
+  EXPECT_EQ(result.status, ExitCode::cancelled);
+  EXPECT_EQ(result.nodes[source].status, NodeStatus::cancelled);
+  EXPECT_TRUE(result.nodes[source].outputs.empty());
 }
 
 TEST_F(OptionsTest, events_tell_reads_writes_and_times_that_never_go_back) {
