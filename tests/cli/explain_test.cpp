@@ -37,7 +37,7 @@ TEST_F(ExplainCliTest, tells_what_changed_since_the_run_before_without_having_be
   const std::string matrix = ballflow({"explain", "matrix"});
   expect_words(matrix, {"input balls: other content (enlarge.balls)",
                         "because of enlarge: params.epsilon 0.3 -> 0.5"});
-  expect_words(ballflow({"explain", "prune/rounds"}), {"input cover: other content (matrix.cover)",
+  expect_words(ballflow({"explain", "prune/rounds"}), {"input cover: other content (prune/share.cover)",
                                                        "because of enlarge: params.epsilon 0.3 -> 0.5"});
   expect_words(ballflow({"explain", "prune/rounds/reduce"}),
                {"prune/rounds/reduce (Reduce)", "input cover: other content (prune/rounds.cover)",

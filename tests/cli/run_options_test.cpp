@@ -29,7 +29,7 @@ struct RunOptionsTest : testing::Test {
   }
   ProcessResult run(std::vector<std::string> arguments, std::map<std::string, std::string> environment = {}) {
     arguments.insert(arguments.begin(), {"run", test::source_file("graphs/medial_axis.json"), "--set",
-                                         "input=shape:torus?n=2000"});
+                                         "input=shape:torus?n=2000", "--set", "strategy=greedy"});
     return ballflow(std::move(arguments), std::move(environment));
   }
   json report() { return json::parse(test::read_file(folder.file("report.json"))); }

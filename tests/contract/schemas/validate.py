@@ -136,7 +136,7 @@ with tempfile.TemporaryDirectory() as folder:
             owner[where[-1]] = value
         if graphs.is_valid(wrong):
             fail(f"the schema accepts {what}")
-        name = pathlib.Path(folder) / ("strategies/greedy.json" if base is hybrid else "wrong.json")
+        name = pathlib.Path(folder) / ("strategies/certified.json" if base is hybrid else "wrong.json")
         name.write_text(json.dumps(wrong))
         check = ballflow("check", pathlib.Path(folder) / "medial_axis.json" if base is hybrid else name)
         if check.returncode != 2:
