@@ -42,7 +42,7 @@ CoverState greedy(const CoverState& state, const GreedyOptions& options, Monitor
   if (options.mode == GreedyMode::all) {
     std::vector<std::int32_t> every(state.rows());
     std::iota(every.begin(), every.end(), 0);
-    CoverState next = choose(state, every, Choice::all);
+    CoverState next = choose(state, every, Choice::all, monitor);
     raise_lower_bound(next);
     return next;
   }
@@ -55,9 +55,9 @@ CoverState greedy(const CoverState& state, const GreedyOptions& options, Monitor
   std::vector<std::int32_t> picks = longest;
   if (options.mode == GreedyMode::until_covered) {
     picks = greedy_rows(rows_of(state), state.cols(), monitor);
-    if (options.remove_redundant) picks = without_redundant(rows_of(state), state.cols(), picks);
+    if (options.remove_redundant) picks = without_redundant(rows_of(state), state.cols(), picks, monitor);
   }
-  CoverState next = choose(bounded, picks, Choice::greedy);
+  CoverState next = choose(bounded, picks, Choice::greedy, monitor);
   raise_lower_bound(next);
   monitor.step(1);
   return next;

@@ -15,6 +15,7 @@ std::vector<std::int32_t> greedy_rows(const Csr& rows, std::size_t columns, Moni
 
 /// `picks` without those whose columns the remaining ones cover, shortest first; in the same order.
 std::vector<std::int32_t> without_redundant(const Csr& rows, std::size_t columns,
-                                            const std::vector<std::int32_t>& picks);
+                                            const std::vector<std::int32_t>& picks,
+                                            Monitor& monitor = no_monitor());
 
 }  // namespace ballflow::geometry

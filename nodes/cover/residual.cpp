@@ -20,13 +20,20 @@ Csr transpose(const Csr& rows, std::size_t columns) {
   return {std::move(offsets), std::move(entries)};
 }
 
-CoverState choose(const CoverState& state, std::span<const std::int32_t> rows, Choice how) {
+CoverState choose(const CoverState& state, std::span<const std::int32_t> rows, Choice how, Monitor& monitor) {
+  std::size_t entries = 0;
+  const auto look = [&](std::size_t more) {
+    if ((entries += more) < (std::size_t{1} << 20)) return;  // about a millisecond
+    entries = 0;
+    if (monitor.cancelled()) throw Cancelled();
+  };
   CoverState next = state;
   std::vector<std::int32_t> chosen(state.chosen.begin(), state.chosen.end());
   std::vector<std::uint8_t> chosen_how(state.chosen_how.begin(), state.chosen_how.end());
   std::vector<std::uint8_t> gone_row(state.rows()), gone_column(state.cols());
   for (const std::int32_t row : rows) {
     const auto i = static_cast<std::size_t>(row);
+    look(state.row(i).size());
     gone_row[i] = 1;
     for (const std::int32_t c : state.row(i)) gone_column[static_cast<std::size_t>(c)] = 1;
     chosen.push_back(state.row_ids[i]);
@@ -43,6 +50,7 @@ CoverState choose(const CoverState& state, std::span<const std::int32_t> rows, C
   std::vector<std::int32_t> columns, row_ids;
   for (std::size_t i = 0; i < state.rows(); ++i) {
     if (gone_row[i] != 0) continue;
+    look(state.row(i).size());
     for (const std::int32_t c : state.row(i)) {
       if (const std::int32_t k = number[static_cast<std::size_t>(c)]; k >= 0) columns.push_back(k);
     }

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "types/cover_state.hpp"
+#include "types/monitor.hpp"
 
 namespace ballflow::geometry {
 
@@ -29,7 +30,8 @@ Csr transpose(const Csr& rows, std::size_t columns);
 /// Appends `rows` (distinct indices into the residual matrix) to the chosen balls, in that order, and takes
 /// out of the matrix these rows, the columns they cover, and rows that then cover nothing. Counts and
 /// bounds follow by raise_lower_bound.
-CoverState choose(const CoverState& state, std::span<const std::int32_t> rows, Choice how);
+CoverState choose(const CoverState& state, std::span<const std::int32_t> rows, Choice how,
+                  Monitor& monitor = no_monitor());
 
 /// Raises the lower bound to what the choices and the residual prove, if that is more.
 ///
