@@ -48,7 +48,8 @@ class Searches {
       if (monitor.cancelled()) throw Cancelled();
       Part part = parts_.part(k);
       const std::size_t columns = part.columns.size();
-      const auto cover = without_redundant(part.rows, columns, greedy_rows(part.rows, columns));
+      const auto cover =
+          without_redundant(part.rows, columns, greedy_rows(part.rows, columns, monitor), monitor);
       for (const std::int32_t i : cover) rows_[k].push_back(part.row_ids[static_cast<std::size_t>(i)]);
       if (static_cast<std::int64_t>(cover.size()) <= bounds[k]) return;
       searches_[k] = std::make_unique<WeightingSearch>(std::move(part), cover, bounds[k],
@@ -130,7 +131,7 @@ CoverState local_search(const CoverState& state, const LocalSearchOptions& optio
     monitor.step(static_cast<double>(round) / rounds);
     searches.run(steps / rows / rounds, monitor);
   }
-  CoverState next = choose(state, searches.rows(), Choice::searched);
+  CoverState next = choose(state, searches.rows(), Choice::searched, monitor);
   raise_lower_bound(next);
   monitor.step(1);
   return next;

@@ -110,6 +110,12 @@ TEST_F(CliTest, swapping_the_strategy_reruns_only_the_pruning_and_what_follows) 
   EXPECT_GE(report().at("nodes").at("prune/rounds").at("iterations").get<int>(), 1);
 }
 
+TEST_F(CliTest, a_cover_as_small_as_its_bound_is_called_the_fewest_possible) {
+  EXPECT_NE(run({"--set", small}).out.find("balls chosen, the fewest possible"), std::string::npos);
+  const ProcessResult greedy = run({"--set", small, "--set", "strategy=greedy"});
+  EXPECT_EQ(greedy.out.find("the fewest possible"), std::string::npos) << greedy.out;
+}
+
 TEST_F(CliTest, plan_and_check_say_what_a_run_would_do) {
   const std::string graph = test::source_file("graphs/medial_axis.json");
   EXPECT_NE(ballflow({"plan", graph, "--set", small}).out.find("RUN"), std::string::npos);

@@ -28,6 +28,7 @@ std::string percent(double fraction) {
 std::string cover(const Json& s) {
   if (s.contains("remaining") && s.at("remaining") == 0) {
     std::string text = counted(s, "chosen", "ball") + " chosen";
+    if (s.at("lower_bound") == s.at("chosen")) return text + ", the fewest possible";
     if (s.at("lower_bound").is_number()) text += ", at least " + number(s, "lower_bound") + " needed";
     if (s.at("gap").is_number()) text += ", gap " + percent(s.at("gap").get<double>());
     return text;
