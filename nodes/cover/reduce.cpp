@@ -22,7 +22,8 @@ namespace {
 using Flags = std::vector<std::uint8_t>;
 using Ids = std::vector<std::int32_t>;
 
-constexpr std::size_t block = 128;  // sets handled between two looks at the monitor
+constexpr std::size_t block = 128;  // sets handled in one task
+constexpr std::size_t entries_between_looks = 1 << 20;
 
 /// What two sets must satisfy before one can contain the other, cheaper to compare than the sets.
 struct Outline {
@@ -202,6 +203,7 @@ Flags dominated(const Csr& sets, const Csr& members, const Ids& dirty, Keep keep
   tbb::parallel_for(std::size_t{0}, (dirty.size() + block - 1) / block, [&](std::size_t b) {
     if (monitor.cancelled()) throw Cancelled();
     std::int64_t looked_at = 0, opened = 0;
+    std::size_t entries = 0;  // compared since the last look at the monitor: rows of dense matrices are long
     for (std::size_t d = b * block; d < std::min(dirty.size(), (b + 1) * block); ++d) {
       const auto i = static_cast<std::size_t>(dirty[d]);
       const auto inner = sets[i];
@@ -213,8 +215,13 @@ Flags dominated(const Csr& sets, const Csr& members, const Ids& dirty, Keep keep
       // Returns false when nothing more can follow from i.
       const auto look_at = [&](std::size_t k) {
         ++looked_at;
+        if (++entries > entries_between_looks) {
+          if (monitor.cancelled()) throw Cancelled();
+          entries = 0;
+        }
         if (k == i || !outlines[k].may_contain(outlines[i]) || marked(gone[k])) return true;
         ++opened;
+        entries += inner.size() + sets[k].size();
         if (!contains(sets[k], inner)) return true;
         const bool equal = outlines[k].degree == outlines[i].degree;
         const bool inner_goes = keep == Keep::maximal ? !equal || k < i : equal && k < i;
@@ -223,8 +230,6 @@ Flags dominated(const Csr& sets, const Csr& members, const Ids& dirty, Keep keep
       };
       if (test == SubsetTest::hash) {
         for (std::size_t k = 0; k < sets.size() && look_at(k); ++k) {
-          // One set is compared with all others: with a million of them that takes milliseconds.
-          if (k % 65536 == 65535 && monitor.cancelled()) throw Cancelled();
         }
         continue;
       }
