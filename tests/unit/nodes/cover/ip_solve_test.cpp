@@ -66,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(ip_solve, EverySolver,
 
 TEST_P(EverySolver, finds_the_optimum_of_random_instances) {
   std::mt19937 random(21);
-  for (int round = 0; round < 2000; ++round) {
+  for (int round = 0; round < 3000; ++round) {
     const std::size_t rows = 1 + random() % 12, columns = 1 + random() % 20;
     const CoverState state =
         state_of(test::random_sets(random, rows, columns, 0.08 + 0.4 * test::unit(random)), columns);
@@ -136,27 +136,27 @@ TEST(ip_solve, leaves_a_component_that_needs_too_many_nodes) {
   EXPECT_EQ(gives_up.calls, 1);
 }
 
-/// 90 columns of 3 among 30 rows at random: needs branching.
+/// 120 columns of 3 among 40 rows at random: needs branching.
 CoverState hard_instance() {
   std::mt19937 random(4);
-  Sets rows(30);
-  for (std::int32_t c = 0; c < 90; ++c) {
+  Sets rows(40);
+  for (std::int32_t c = 0; c < 120; ++c) {
     std::set<std::size_t> members;
-    while (members.size() < 3) members.insert(random() % 30);
+    while (members.size() < 3) members.insert(random() % 40);
     for (const std::size_t i : members) rows[i].push_back(c);
   }
-  return state_of(rows, 90);
+  return state_of(rows, 120);
 }
 
 TEST_P(EverySolver, node_limit_ends_the_search_the_same_way_every_time) {
   const CoverState state = hard_instance();
   const Csr columns = transpose(rows_of(state), state.cols());
   const auto answer = [&](std::int64_t limit) {
-    return solver->solve({30, columns, 31, limit}, no_monitor());
+    return solver->solve({40, columns, 41, limit}, no_monitor());
   };
   const IpAnswer full = answer(1'000'000);
   ASSERT_TRUE(full.finished);
-  ASSERT_GT(full.nodes, 2) << "the instance is too easy to test the limit";
+  ASSERT_GT(full.nodes, 20) << "the instance is too easy to test the limit";
   const IpAnswer half = answer(full.nodes / 2);
   EXPECT_FALSE(half.finished);
   EXPECT_LE(half.lower_bound, static_cast<std::int64_t>(full.rows.size()));

@@ -10,6 +10,7 @@
 
 #include "ballflow/error.hpp"
 #include "export/typed.hpp"
+#include "sealed.hpp"
 #include "test_data.hpp"
 #include "types/artifact_types.hpp"
 
@@ -18,25 +19,8 @@ namespace {
 
 using geometry::Array;
 using geometry::Vec3;
+using test::sealed;
 using Rows = std::vector<std::vector<double>>;
-
-template <class T>
-ArtifactPtr sealed(const T& value) {
-  EXPECT_EQ(type_decl<T>().broken(value), "");
-  const detail::OutArrays out = type_decl<T>().write(value);
-  std::vector<NamedArray> arrays;
-  for (const bf_array& a : out.arrays()) {
-    arrays.push_back({std::string(detail::view(a.name)), a.dtype, {a.shape, a.shape + a.rank}, a.data});
-  }
-  const Json& declaration = type_decl<T>().json();
-  const std::shared_ptr<const void> keeper(new detail::OutArrays(out), [](const void* kept) {
-    const auto* released = static_cast<const detail::OutArrays*>(kept);
-    for (const bf_array& a : released->arrays()) a.release(a.owner);
-    delete released;
-  });
-  return Artifact::seal(declaration["id"].get<std::string>(), declaration["version"].get<int>(),
-                        std::move(arrays), type_decl<T>().summary_of(value).dump(), keeper);
-}
 
 template <class T>
 std::string exported(const T& value, const std::string& format) {

@@ -1,0 +1,137 @@
+#include "show/scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include "ballflow/error.hpp"
+#include "sealed.hpp"
+
+namespace ballflow::show {
+namespace {
+
+using namespace geometry;
+
+std::vector<Layer> shown(const auto& value) {
+  std::vector<Layer> layers = layers_of(*test::sealed(value));
+  for (const Layer& layer : layers) EXPECT_EQ(broken_invariant(layer), "") << layer.name;
+  return layers;
+}
+
+std::vector<std::string> names(const std::vector<Layer>& layers) {
+  std::vector<std::string> all;
+  for (const Layer& layer : layers) all.push_back(layer.name);
+  return all;
+}
+
+using Names = std::vector<std::string>;
+
+TEST(scene, shows_balls_with_their_radii) {
+  Balls balls;
+  balls.centers = std::vector<Vec3>{{0, 0, 0}, {5, 0, 0}};
+  balls.radii = std::vector<double>{1, 2};
+  const auto layers = shown(balls);
+  ASSERT_EQ(names(layers), Names{"balls"});
+  EXPECT_EQ(layers[0].elements(), 2u);
+  EXPECT_EQ(layers[0].find("radius")->values, (std::vector<double>{1, 2}));
+  EXPECT_EQ(layers[0].find("order")->values, (std::vector<double>{0, 1}));
+  const Box box = bounding_box(layers);
+  EXPECT_EQ(box.lower, (Vec3{-1, -2, -2}));
+  EXPECT_EQ(box.upper, (Vec3{7, 2, 2}));
+}
+
+TEST(scene, leaves_layers_without_elements_out) {
+  EXPECT_TRUE(shown(Balls{}).empty());
+  EXPECT_TRUE(bounding_box({}).empty());
+}
+
+TEST(scene, tells_inner_from_outer_poles) {
+  PoleSet poles;
+  poles.centers = std::vector<Vec3>{{0, 0, 0}, {9, 0, 0}, {0, 1, 0}};
+  poles.radii = std::vector<double>{1, 2, 3};
+  poles.labels = std::vector<std::uint8_t>{1, 2, 1};
+  poles.defining_offsets = std::vector<std::int64_t>{0, 4, 8, 12};
+  poles.defining_samples = std::vector<std::int32_t>{0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
+  poles.unbounded = std::vector<std::uint8_t>{0, 1, 0};
+  poles.sample_poles =
+      std::vector<std::array<std::int32_t, 3>>{{0, 1, -1}, {2, 1, -1}, {0, 1, -1}, {0, 1, -1}};
+  const auto layers = shown(poles);
+  ASSERT_EQ(names(layers),
+            (Names{"inner poles", "inner poles as balls", "outer poles", "outer poles as balls"}));
+  EXPECT_EQ(layers[0].find("radius")->values, (std::vector<double>{1, 3}));
+  EXPECT_TRUE(layers[0].visible);
+  EXPECT_FALSE(layers[2].visible);
+  EXPECT_EQ(layers[3].radii[0], 2);
+}
+
+TEST(scene, shows_of_a_complex_only_what_can_be_seen) {
+  // Two tetrahedra with a triangle in common (interior), an edge that hangs on vertex 4, and vertex 6 alone.
+  SimplicialComplex complex;
+  complex.centers =
+      std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {2, 2, 2}, {9, 9, 9}};
+  complex.weights = std::vector<double>{1, 1, 1, 1, 1, 4, 1};
+  complex.vertices = std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6};
+  complex.edges = std::vector<std::array<std::int32_t, 2>>{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3},
+                                                           {1, 4}, {2, 3}, {2, 4}, {3, 4}, {4, 5}};
+  complex.triangles = std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3},
+                                                               {1, 2, 4}, {1, 3, 4}, {2, 3, 4}};
+  complex.tetrahedra = std::vector<std::array<std::int32_t, 4>>{{0, 1, 2, 3}, {1, 2, 3, 4}};
+  complex.vertex_classes = std::vector<std::uint8_t>{1, 1, 1, 1, 1, 1, 2};
+  complex.edge_classes = std::vector<std::uint8_t>{1, 1, 1, 1, 1, 1, 1, 1, 1, 2};
+  complex.triangle_classes = std::vector<std::uint8_t>{1, 1, 1, 0, 1, 1, 1};
+  complex.betti = {2, 0, 0};
+  const auto layers = shown(complex);
+  ASSERT_EQ(names(layers), (Names{"regular triangles", "singular edges", "isolated vertices"}));
+  EXPECT_EQ(layers[0].elements(), 6u);
+  EXPECT_EQ(layers[0].vertices.size(), 5u);
+  EXPECT_EQ(layers[1].vertices[layers[1].segments[0][1]], (Vec3{2, 2, 2}));
+  EXPECT_EQ(layers[1].find("radius")->values, (std::vector<double>{1, 2}));
+  EXPECT_EQ(layers[2].vertices[0], (Vec3{9, 9, 9}));
+}
+
+TEST(scene, cuts_polygons_of_a_medial_axis_into_triangles_and_shows_loose_ends) {
+  MedialAxis axis;
+  axis.vertices = std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 2, 0}, {7, 7, 7}};
+  axis.radii = std::vector<double>{1, 2, 3, 4, 5, 6};
+  axis.edges = std::vector<std::array<std::int32_t, 2>>{{2, 4}};
+  axis.polygon_offsets = std::vector<std::int64_t>{0, 4};
+  axis.polygon_vertices = std::vector<std::int32_t>{0, 1, 2, 3};
+  axis.polygon_kinds = std::vector<std::uint8_t>{1};
+  const auto layers = shown(axis);
+  ASSERT_EQ(names(layers), (Names{"medial axis", "medial axis edges", "medial axis points"}));
+  EXPECT_EQ(layers[0].elements(), 2u);
+  EXPECT_EQ(layers[0].find("kind")->values, (std::vector<double>{1, 1}));
+  EXPECT_FALSE(layers[0].find("kind")->per_vertex);
+  EXPECT_EQ(layers[1].elements(), 1u);
+  EXPECT_EQ(layers[2].vertices[0], (Vec3{7, 7, 7}));
+}
+
+TEST(scene, says_what_can_be_drawn_when_a_type_cannot) {
+  Comparison comparison;
+  try {
+    layers_of(*test::sealed(comparison));
+    FAIL() << "nothing was thrown";
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()), "a Comparison cannot be drawn");
+    EXPECT_NE(error.hint().find("MedialAxis"), std::string::npos);
+  }
+  EXPECT_FALSE(can_be_shown("Comparison"));
+  EXPECT_TRUE(can_be_shown("Balls"));
+}
+
+TEST(scene, names_the_broken_part_of_a_layer) {
+  Layer layer;
+  layer.name = "x";
+  layer.shape = Shape::triangles;
+  layer.vertices = std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}};
+  layer.triangles = {{0, 1, 2}};
+  EXPECT_EQ(broken_invariant(layer), "a triangle names a vertex that is not there");
+  layer.triangles = {{0, 1, 1}};
+  EXPECT_EQ(broken_invariant(layer), "");
+  layer.attributes = {{"kind", "", {"a", "b"}, false, {2}}};
+  EXPECT_EQ(broken_invariant(layer), "the attribute kind has a value outside of its categories");
+  layer.attributes[0].values = {1};
+  layer.colour_by = "nothing";
+  EXPECT_EQ(broken_invariant(layer), "there is no attribute nothing to colour by");
+}
+
+}  // namespace
+}  // namespace ballflow::show

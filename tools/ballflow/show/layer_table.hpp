@@ -1,0 +1,24 @@
+// How the files of layers/ offer the layers of a type to scene.cpp.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "ballflow/artifact.hpp"
+#include "show/scene.hpp"
+
+namespace ballflow::show {
+
+struct TypeLayers {
+  std::string_view type;
+  std::vector<Layer> (*layers)(const Artifact&);
+};
+
+TypeLayers point_set_layers();
+TypeLayers triangle_mesh_layers();
+TypeLayers balls_layers();
+TypeLayers pole_set_layers();
+TypeLayers simplicial_complex_layers();
+TypeLayers medial_axis_layers();
+
+}  // namespace ballflow::show

@@ -1,0 +1,28 @@
+// TriangleMesh: its triangles, translucent at first so that what is inside can be seen.
+#include "export/typed.hpp"
+#include "show/layer_table.hpp"
+#include "types/artifact_types.hpp"
+
+namespace ballflow::show {
+namespace {
+
+std::vector<Layer> layers(const Artifact& artifact) {
+  const auto mesh = typed<geometry::TriangleMesh>(artifact);
+  Layer surface;
+  surface.name = "mesh";
+  surface.shape = Shape::triangles;
+  surface.vertices = mesh.vertices;
+  surface.triangles.reserve(mesh.triangles.size());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    surface.triangles.push_back(
+        {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(c)});
+  }
+  surface.opacity = 0.3;
+  return {surface};
+}
+
+}  // namespace
+
+TypeLayers triangle_mesh_layers() { return {"TriangleMesh", layers}; }
+
+}  // namespace ballflow::show
