@@ -53,6 +53,8 @@ struct RunSettings {
   void add_to(CLI::App& command);
   /// Throws Error (code usage) for a name that `dag` does not have and for a size that is none.
   RunOptions options(const Dag& dag) const;
+  /// The words of a command line for what decides the results: the seed and the nodes that run.
+  std::string words() const;
 };
 
 /// Registered commands put what they do here; main runs it after parsing.
@@ -66,6 +68,7 @@ void add_runs(CLI::App& app, Common& common, Action& action);
 void add_check(CLI::App& app, Common& common, Action& action);
 void add_nodes(CLI::App& app, Common& common, Action& action);
 void add_cache(CLI::App& app, Common& common, Action& action);
+void add_report(CLI::App& app, Common& common, Action& action);
 void add_export(CLI::App& app, Common& common, Action& action);
 void add_graph(CLI::App& app, Common& common, Action& action);
 void add_plugins(CLI::App& app, Common& common, Action& action);

@@ -2,7 +2,7 @@
 
 #include "ballflow/history.hpp"
 #include "commands.hpp"
-#include "compare.hpp"
+#include "report/compare.hpp"
 
 namespace ballflow::cli {
 namespace {

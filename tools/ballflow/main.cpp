@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
   cli::add_check(app, common, action);
   cli::add_nodes(app, common, action);
   cli::add_cache(app, common, action);
+  cli::add_report(app, common, action);
   cli::add_export(app, common, action);
   cli::add_graph(app, common, action);
   cli::add_plugins(app, common, action);

@@ -14,11 +14,11 @@
 #include "ballflow/report.hpp"
 #include "ballflow/text.hpp"
 #include "commands.hpp"
-#include "compare.hpp"
 #include "event_lines.hpp"
 #include "export/export.hpp"
 #include "failure.hpp"
 #include "output_folder.hpp"
+#include "report/compare.hpp"
 #include "terminal.hpp"
 
 namespace ballflow::cli {
@@ -208,7 +208,9 @@ int run(const Common& common, const RunArguments& arguments) {
   if (const std::string trouble = store->trouble(); !trouble.empty()) {
     std::fprintf(stderr, "warning: not everything could be cached: %s\n", trouble.c_str());
   }
-  const Json report = run_report(id, dag, result);
+  Json report = run_report(id, dag, result);
+  report["version"] = BALLFLOW_VERSION;
+  report["command"] = "ballflow run " + arguments.graph.words() + arguments.settings.words();
   save_run(*store, id, dag, result, report);
   std::vector<std::string> records;  // written beside the outputs
   const auto record = [&](const char* what, const std::string& path, const std::string& text) {

@@ -1,3 +1,4 @@
+#include "ballflow/text.hpp"
 #include "commands.hpp"
 
 namespace ballflow::cli {
@@ -50,6 +51,14 @@ RunOptions RunSettings::options(const Dag& dag) const {
   for (const std::string& name : only) result.only.merge(nodes_named(dag, name));
   for (const std::string& name : force) result.force.merge(nodes_named(dag, name));
   return result;
+}
+
+std::string RunSettings::words() const {
+  std::string text;
+  if (seed != 0) text += " --seed " + std::to_string(seed);
+  for (const std::string& name : until) text += " --until " + shell_word(name);
+  for (const std::string& name : only) text += " --only " + shell_word(name);
+  return text;
 }
 
 }  // namespace ballflow::cli

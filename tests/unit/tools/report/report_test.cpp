@@ -1,0 +1,311 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <regex>
+
+#include "ballflow/error.hpp"
+#include "report/bibliography.hpp"
+#include "report/html.hpp"
+#include "report/plot.hpp"
+#include "report/report_page.hpp"
+
+namespace ballflow::report {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t n = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) ++n;
+  return n;
+}
+
+/// Tags open and close in order; an independent look at what the functions below write.
+bool well_formed(const std::string& html) {
+  std::vector<std::string> open;
+  const std::regex tag("<(/?)([a-zA-Z0-9]+)([^<>]*?)(/?)>");
+  for (auto it = std::sregex_iterator(html.begin(), html.end(), tag); it != std::sregex_iterator(); ++it) {
+    const std::string name = (*it)[2];
+    if ((*it)[4] == "/" || name == "meta" || name == "img" || name == "br") continue;
+    if ((*it)[1] == "/") {
+      if (open.empty() || open.back() != name) return false;
+      open.pop_back();
+    } else {
+      open.push_back(name);
+    }
+  }
+  return open.empty();
+}
+
+TEST(html, leaves_no_markup_in_text) {
+  EXPECT_EQ(escaped("<script>alert(\"a\" & 'b')</script>"),
+            "&lt;script&gt;alert(&quot;a&quot; &amp; &#39;b&#39;)&lt;/script&gt;");
+  EXPECT_EQ(escaped("K\xc3\xb6rper \xe2\x82\xac \xf0\x9f\x98\x80"),
+            "K\xc3\xb6rper \xe2\x82\xac \xf0\x9f\x98\x80");
+}
+
+TEST(html, replaces_bytes_that_are_no_text) {
+  const std::string replacement = "\xef\xbf\xbd";
+  EXPECT_EQ(escaped("a\xff"
+                    "b"),
+            "a" + replacement + "b");
+  EXPECT_EQ(escaped("\xc3"), replacement);
+  EXPECT_EQ(escaped("\xc0\x80"), replacement + replacement) << "overlong";
+  EXPECT_EQ(count(escaped("\xed\xa0\x80"), replacement), 3u) << "surrogate";
+  EXPECT_EQ(escaped(std::string("\0\x1b", 2)), replacement + replacement);
+}
+
+TEST(html, writes_numbers_for_people) {
+  EXPECT_EQ(number(0), "0");
+  EXPECT_EQ(number(-0.0), "0");
+  EXPECT_EQ(number(999), "999");
+  EXPECT_EQ(number(35676),
+            "35\xe2\x80\xaf"
+            "676");
+  EXPECT_EQ(number(-1234567),
+            "-1\xe2\x80\xaf"
+            "234\xe2\x80\xaf"
+            "567");
+  EXPECT_EQ(number(0.012345), "0.01235");
+  EXPECT_EQ(number(1e300), "1e+300");
+}
+
+TEST(ticks, are_round_and_enclose_the_values) {
+  for (const auto& [low, high] : std::vector<std::pair<double, double>>{
+           {0, 1}, {0.013, 0.094}, {-3, 17}, {1e6, 1.00001e6}, {-1e-9, 1e-9}, {5, 5.5}}) {
+    const auto marks = ticks(low, high, 5);
+    ASSERT_GE(marks.size(), 3u);
+    EXPECT_LE(marks.size(), 12u);
+    EXPECT_LE(marks.front(), low + 1e-12 * std::abs(low));
+    EXPECT_GE(marks.back(), high - 1e-12 * std::abs(high));
+    const double step = marks[1] - marks[0], decade = std::pow(10, std::floor(std::log10(step * 1.0001)));
+    EXPECT_NEAR(
+        std::min({std::abs(step / decade - 1), std::abs(step / decade - 2), std::abs(step / decade - 5)}), 0,
+        1e-6)
+        << step;
+  }
+  EXPECT_EQ(ticks(0, 10, 5), (std::vector<double>{0, 2, 4, 6, 8, 10}));
+}
+
+Plot small_plot() {
+  Plot plot;
+  plot.title = "A & B";
+  plot.x_name = "epsilon", plot.y_name = "balls";
+  plot.series = {{"greedy", {1, 2, 3}, {30, 20, 10}, {15, nan, 5}, {}},
+                 {"none", {1, 2, 3}, {nan, 40, 40}, {}, {}}};
+  return plot;
+}
+
+TEST(plot, draws_a_mark_for_every_finite_point) {
+  const std::string drawn = svg(small_plot());
+  EXPECT_TRUE(well_formed(drawn));
+  EXPECT_EQ(count(drawn, "<circle"), 5u + 2u) << "two in the legend";
+  EXPECT_EQ(count(drawn, "class=\"band\""), 1u);
+  EXPECT_EQ(count(drawn, "<polyline"), 2u);
+  EXPECT_NE(drawn.find("greedy\nepsilon 1\nballs 30, at least 15"), std::string::npos);
+  EXPECT_EQ(drawn.find("nan"), std::string::npos);
+  EXPECT_NE(drawn.find("A &amp; B"), std::string::npos);
+}
+
+TEST(plot, places_larger_values_higher_and_to_the_right) {
+  const std::string drawn = svg(small_plot());
+  const std::regex circle("<circle cx=\"([0-9.]+)\" cy=\"([0-9.]+)\" r=\"[0-9.]+\"><title>greedy");
+  std::vector<std::pair<double, double>> at;
+  for (auto it = std::sregex_iterator(drawn.begin(), drawn.end(), circle); it != std::sregex_iterator();
+       ++it) {
+    at.emplace_back(std::stod((*it)[1]), std::stod((*it)[2]));
+  }
+  ASSERT_EQ(at.size(), 3u);
+  EXPECT_LT(at[0].first, at[1].first);
+  EXPECT_LT(at[0].second, at[1].second) << "y grows downwards";
+  EXPECT_NEAR(at[1].first - at[0].first, at[2].first - at[1].first, 0.2) << "linear";
+}
+
+TEST(plot, takes_logarithms_where_values_span_decades) {
+  Plot plot;
+  plot.series = {{"", {0.01, 0.1, 1}, {1, 10, 1000}, {}, {}}};
+  const std::string drawn = svg(plot);
+  const std::regex circle("<circle cx=\"([0-9.]+)\"");
+  std::vector<double> x;
+  for (auto it = std::sregex_iterator(drawn.begin(), drawn.end(), circle); it != std::sregex_iterator();
+       ++it) {
+    x.push_back(std::stod((*it)[1]));
+  }
+  ASSERT_EQ(x.size(), 3u);
+  EXPECT_NEAR(x[1] - x[0], x[2] - x[1], 0.2);
+}
+
+TEST(plot, survives_nothing_and_one_value) {
+  EXPECT_TRUE(well_formed(svg(Plot{})));
+  Plot one;
+  one.series = {{"a", {3}, {0}, {}, {}}};
+  EXPECT_EQ(count(svg(one), "<circle"), 2u);
+  one.x_labels = {"x", "y", "z", "w"};
+  EXPECT_EQ(count(svg(one), "<polyline"), 0u) << "categories are not joined";
+  EXPECT_TRUE(well_formed(svg(Bars{})));
+}
+
+TEST(bars, are_as_long_as_their_values) {
+  Bars bars;
+  bars.unit = "seconds";
+  bars.labels = {"one", "<two>"};
+  bars.parts = {"a", "b"};
+  bars.values = {{1, 3}, {2, 0}};
+  const std::string drawn = svg(bars);
+  EXPECT_TRUE(well_formed(drawn));
+  const std::regex bar("<rect class=\"s([0-9])\" x=\"[0-9.]+\" y=\"[0-9.]+\" width=\"([0-9.]+)\"");
+  std::vector<double> width;
+  for (auto it = std::sregex_iterator(drawn.begin(), drawn.end(), bar); it != std::sregex_iterator(); ++it) {
+    width.push_back(std::stod((*it)[2]));
+  }
+  ASSERT_EQ(width.size(), 3u) << "no bar for 0";
+  EXPECT_NEAR(width[1], 3 * width[0], 0.5);
+  EXPECT_NEAR(width[2], 2 * width[0], 0.5);
+  EXPECT_NE(drawn.find("&lt;two&gt;"), std::string::npos);
+}
+
+TEST(bibliography, reads_entries) {
+  const auto sources = parse_bibtex(R"(A comment.
+@Article{Key1, author = {M{\"u}ller, A. and Li, B.}, title = "About {3D} \& more",
+  journal = {J. of  X}, volume = 4, number={2}, pages = {1--9}, year = 1999, }
+@misc{k2, title={Tool}})");
+  ASSERT_EQ(sources.size(), 2u);
+  EXPECT_EQ(sources.at("Key1").kind, "article");
+  EXPECT_EQ(sources.at("Key1").text(),
+            "M\\\"uller, A.; Li, B.: About 3D & more. J. of X 4(2), 1\xe2\x80\x93"
+            "9, 1999.");
+  EXPECT_EQ(sources.at("k2").text(), "Tool.");
+}
+
+TEST(bibliography, names_the_line_of_what_it_cannot_read) {
+  for (const auto& [text, line] :
+       std::vector<std::pair<const char*, const char*>>{{"@a{k,\n t = {x", "line 2"},
+                                                        {"@a{k t={x}}", "line 1"},
+                                                        {"@a{,}", "line 1"},
+                                                        {"@a{k, ={x}}", "line 1"},
+                                                        {"@a{k,t={x}}\n@a{k,t={x}}", "line 2"}}) {
+    try {
+      parse_bibtex(text);
+      ADD_FAILURE() << text;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(line), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(bibliography, has_the_sources_of_the_thesis) {
+  EXPECT_NE(built_in_sources().at("kornberger2010").text().find("Unions of Balls"), std::string::npos);
+  for (const auto& [key, source] : built_in_sources()) EXPECT_FALSE(source.text().empty()) << key;
+}
+
+ReportInput hostile_run() {
+  ReportInput input;
+  input.run.id = "r";
+  input.run.report = nlohmann::json::parse(R"({
+    "run": "r", "graph": "<script>alert(1)</script>.json", "status": "failed", "seconds": 1, "cpu_seconds": 2,
+    "peak_rss_bytes": 5000000, "command": "ballflow run '<b>'", "params": {"<i>": "<u>"},
+    "nodes": {"<script>": {"type": "T", "status": "failed", "reason": "", "seconds": 1, "cpu_seconds": 1,
+      "cost_seconds": 1, "params": {"<p>": "\"x"}, "outputs": {}, "warnings": ["<em>"],
+      "error": {"cause": "<h1>", "hint": "</style>"}}},
+    "outputs": {"a<b": {"type": "Balls", "digest": "00", "bytes": 1, "summary": {"co<unt": 3}}}})");
+  input.pictures = {{"</title>", "PNG"}};
+  return input;
+}
+
+TEST(report_page, shows_text_of_graphs_as_text) {
+  const std::string page = report_page(hostile_run());
+  EXPECT_TRUE(well_formed(page));
+  for (const char* const tag : {"<script", "<b>", "<i>", "<u>", "<em>", "<p>\"", "a<b", "co<unt"}) {
+    EXPECT_EQ(page.find(tag), std::string::npos) << tag;
+  }
+  EXPECT_EQ(count(page, "</style>"), 1u);
+  EXPECT_NE(page.find("&lt;script&gt;alert(1)&lt;/script&gt;.json"), std::string::npos);
+  EXPECT_NE(page.find("base64,UE5H\""), std::string::npos);
+}
+
+TEST(report_page, loads_nothing_from_elsewhere) {
+  const std::string page = report_page(hostile_run());
+  EXPECT_NE(page.find("default-src 'none'"), std::string::npos);
+  for (const char* const address : {"http:", "https:", "src=\"/", "href", "url(", "@import"}) {
+    EXPECT_EQ(page.find(address), std::string::npos) << address;
+  }
+}
+
+TEST(report_page, encodes_pictures_of_any_length) {
+  for (const auto& [bytes, code] :
+       std::vector<std::pair<std::string, std::string>>{{"", "base64,\""},
+                                                        {"f", "base64,Zg==\""},
+                                                        {"fo", "base64,Zm8=\""},
+                                                        {"foo", "base64,Zm9v\""},
+                                                        {"\xff\xfe\xfd\xfc", "base64,//79/A==\""}}) {
+    ReportInput input = hostile_run();
+    input.pictures = {{"p", bytes}};
+    EXPECT_NE(report_page(input).find(code), std::string::npos) << code;
+  }
+}
+
+ReportInput sweep() {
+  ReportInput input;
+  auto& report = input.run.report;
+  report = {{"run", "r"},
+            {"graph", "g"},
+            {"status", "ok"},
+            {"seconds", 1},
+            {"cpu_seconds", 2},
+            {"peak_rss_bytes", 1},
+            {"params", nlohmann::json::object()},
+            {"axes", {"epsilon", "strategy"}}};
+  for (const double epsilon : {0.1, 0.5}) {
+    for (const std::string strategy : {"greedy", "exact"}) {
+      const std::string name = "epsilon=" + std::to_string(epsilon) + ",strategy=" + strategy;
+      const double balls = (strategy == "exact" ? 10 : 20) / epsilon;
+      report["variants"].push_back({{"name", name},
+                                    {"status", "ok"},
+                                    {"nodes", {"[" + name + "]/prune"}},
+                                    {"params", {{"epsilon", epsilon}, {"strategy", strategy}}},
+                                    {"subgraphs", nlohmann::json::object()}});
+      report["nodes"]["[" + name + "]/prune"] = {{"type", "P"},
+                                                 {"status", "run"},
+                                                 {"cost_seconds", epsilon},
+                                                 {"params", nlohmann::json::object()},
+                                                 {"outputs", nlohmann::json::object()}};
+      report["outputs"][name + "/cover"] = {
+          {"type", "CoverState"},
+          {"digest", "00"},
+          {"bytes", 1},
+          {"summary", {{"upper_bound", balls}, {"lower_bound", balls - 5}, {"gap", 5 / balls}}}};
+      report["outputs"][name + "/error"] = {
+          {"type", "Comparison"}, {"digest", "00"}, {"bytes", 1}, {"summary", {{"hausdorff", epsilon * 2}}}};
+    }
+  }
+  return input;
+}
+
+TEST(report_page, plots_a_sweep_along_its_numbers_with_a_line_for_every_strategy) {
+  const std::string page = report_page(sweep());
+  EXPECT_TRUE(well_formed(page));
+  EXPECT_NE(page.find("exact\nepsilon 0.1\nballs 100, at least 95"), std::string::npos);
+  EXPECT_NE(page.find("greedy\nepsilon 0.5\nballs 40, at least 35"), std::string::npos);
+  EXPECT_NE(page.find("gap, % 25"), std::string::npos) << "5 of 20 balls";
+  EXPECT_NE(page.find("greedy\nepsilon 0.5\nmodel units 1"), std::string::npos);
+  EXPECT_NE(page.find("exact\nballs 20\nHausdorff distance, model units 1\nepsilon 0.5"), std::string::npos);
+  EXPECT_EQ(count(page, "class=\"guide\""), 2u) << "the front and its key";
+}
+
+TEST(report_page, names_what_nodes_cite) {
+  Registry registry;
+  NodeDeclaration node;
+  node.id = "P";
+  node.cites = {{"kornberger2010", "3.6"}, {"unknown<key", ""}};
+  registry.add(node);
+  ReportInput input = sweep();
+  input.registry = &registry;
+  const std::string page = report_page(input);
+  EXPECT_NE(page.find("Unions of Balls. Graz University of Technology, 2010. <small>P: 3.6"),
+            std::string::npos);
+  EXPECT_NE(page.find("unknown&lt;key"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ballflow::report

@@ -1,0 +1,16 @@
+// Text in pages.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace ballflow::report {
+
+/// `text` as it must stand in HTML or SVG, in an attribute too: nothing in it is markup any more. Bytes that
+/// are no UTF-8 and control characters become U+FFFD.
+std::string escaped(std::string_view text);
+
+/// "35 676", "0.0123", "1.3e-07": at most four significant digits of numbers that are no integers.
+std::string number(double value);
+
+}  // namespace ballflow::report

@@ -1,0 +1,28 @@
+// A run, or a sweep, as one page: what ran, what came out, and how to run it again.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ballflow/history.hpp"
+#include "ballflow/registry.hpp"
+
+namespace ballflow::report {
+
+struct Picture {
+  std::string title;
+  std::string png;  // the bytes of the file
+};
+
+struct ReportInput {
+  RunRecord run;
+  Manifests manifests;                 // of the run; may be empty
+  const Registry* registry = nullptr;  // what nodes are and what they cite
+  std::vector<Picture> pictures;
+};
+
+/// One HTML file without scripts; it loads nothing. Everything in it that comes from graphs, reports and
+/// plugins is escaped.
+std::string report_page(const ReportInput& input);
+
+}  // namespace ballflow::report
