@@ -63,12 +63,15 @@ std::int64_t PricedGroups::bound() const {
   return bound;
 }
 
-PricedGroups priced_groups(const CoverState& state, const std::vector<std::int32_t>& price) {
+PricedGroups priced_groups(const CoverState& state, const std::vector<std::int32_t>& price,
+                           Monitor& monitor) {
   const std::size_t columns = state.cols();
   std::vector<std::int32_t> rank(columns), parent(columns);
   std::iota(parent.begin(), parent.end(), 0);
   boost::disjoint_sets sets(rank.data(), parent.data());
+  Lookout look(monitor);
   for (std::size_t i = 0; i < state.rows(); ++i) {
+    look(state.row(i).size());
     std::int32_t first = -1;
     for (const std::int32_t c : state.row(i)) {
       if (price[static_cast<std::size_t>(c)] == 0) continue;

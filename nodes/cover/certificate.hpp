@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "types/cover_state.hpp"
+#include "types/monitor.hpp"
 
 namespace ballflow::geometry {
 
@@ -35,7 +36,8 @@ struct PricedGroups {
 /// Groups of the columns of the matrix that have a price, as small as condition (2) allows: two columns are
 /// in one group if a row contains both, or a chain of such pairs connects them. Columns of price 0 connect
 /// nothing, so there may be more groups than components, and each is rounded up.
-PricedGroups priced_groups(const CoverState& state, const std::vector<std::int32_t>& price);
+PricedGroups priced_groups(const CoverState& state, const std::vector<std::int32_t>& price,
+                           Monitor& monitor = no_monitor());
 
 /// Takes over groups about samples that essential or exact choices have just taken out of the matrix. Groups
 /// about the matrix as it was before are dropped, unless the certificate proves more with them: then the

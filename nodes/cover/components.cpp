@@ -13,15 +13,10 @@ Components components(const CoverState& state, Monitor& monitor) {
   std::vector<std::int32_t> rank(cols), parent(cols);
   std::iota(parent.begin(), parent.end(), 0);
   boost::disjoint_sets sets(rank.data(), parent.data());
-  constexpr std::size_t entries_between_looks = 1 << 20;
-  std::size_t entries = 0;
+  Lookout look(monitor);
   for (std::size_t i = 0; i < state.rows(); ++i) {
     const auto row = state.row(i);
-    entries += row.size();
-    if (entries >= entries_between_looks) {
-      if (monitor.cancelled()) throw Cancelled();
-      entries = 0;
-    }
+    look(row.size());
     for (std::size_t k = 1; k < row.size(); ++k) sets.union_set(row[0], row[k]);
   }
 
@@ -65,9 +60,9 @@ Csr members(const std::vector<std::int32_t>& group_of, const std::vector<std::in
 
 }  // namespace
 
-Parts::Parts(const CoverState& state)
+Parts::Parts(const CoverState& state, Monitor& monitor)
     : state_(state),
-      components_(components(state)),
+      components_(components(state, monitor)),
       rows_(members(components_.of_row, components_.rows)),
       columns_(members(components_.of_column, components_.columns)),
       number_(state.cols()) {
@@ -84,7 +79,7 @@ std::int32_t Parts::whole_row(std::size_t k) const {
   return -1;
 }
 
-Part Parts::part(std::size_t k) const {
+Part Parts::part(std::size_t k, Monitor& monitor) const {
   Part part{{rows(k).begin(), rows(k).end()}, {columns(k).begin(), columns(k).end()}, {}, {}};
   std::vector<std::int64_t> offsets{0};
   std::size_t size = 0;
@@ -94,13 +89,15 @@ Part Parts::part(std::size_t k) const {
   }
   std::vector<std::int32_t> entries;
   entries.reserve(size);
+  Lookout look(monitor);
   for (const std::int32_t i : part.row_ids) {
+    look(state_.row(static_cast<std::size_t>(i)).size());
     for (const std::int32_t c : state_.row(static_cast<std::size_t>(i))) {
       entries.push_back(number_[static_cast<std::size_t>(c)]);
     }
   }
   part.rows = {std::move(offsets), std::move(entries)};
-  part.columns = transpose(part.rows, part.column_ids.size());
+  part.columns = transpose(part.rows, part.column_ids.size(), monitor);
   return part;
 }
 

@@ -33,7 +33,7 @@ struct Part {
 /// The components one by one, without looking at the whole matrix for each.
 class Parts {
  public:
-  explicit Parts(const CoverState& state);
+  explicit Parts(const CoverState& state, Monitor& monitor = no_monitor());
 
   std::size_t count() const { return components_.count(); }
   std::span<const std::int32_t> rows(std::size_t k) const { return rows_[k]; }
@@ -41,7 +41,7 @@ class Parts {
   /// A row of component k that covers all of it, the first; -1 if there is none.
   std::int32_t whole_row(std::size_t k) const;
   /// Safe to call from several threads at once.
-  Part part(std::size_t k) const;
+  Part part(std::size_t k, Monitor& monitor = no_monitor()) const;
 
  private:
   const CoverState& state_;

@@ -242,9 +242,12 @@ CoverMatrix cover_matrix(const Balls& balls, const PointSet& points, const Cover
     }
   });
 
+  Lookout look(monitor);
   std::vector<std::uint8_t> covered(n);
-  for (std::int64_t k = 0; k < entries; ++k)
+  for (std::int64_t k = 0; k < entries; ++k) {
+    look(1);
     covered[static_cast<std::size_t>(columns[static_cast<std::size_t>(k)])] = 1;
+  }
   std::vector<std::int32_t> uncovered;
   for (std::size_t j = 0; j < n; ++j) {
     if (covered[j] == 0) uncovered.push_back(static_cast<std::int32_t>(j));
@@ -280,7 +283,10 @@ CoverMatrix cover_matrix(const Balls& balls, const PointSet& points, const Cover
       number[j] = static_cast<std::int32_t>(column_ids.size());
       column_ids.push_back(static_cast<std::int32_t>(j));
     }
-    for (std::size_t k = 0; k < total; ++k) columns[k] = number[static_cast<std::size_t>(columns[k])];
+    for (std::size_t k = 0; k < total; ++k) {
+      look(1);
+      columns[k] = number[static_cast<std::size_t>(columns[k])];
+    }
   }
 
   cover.balls = static_cast<std::int64_t>(result.balls.size());

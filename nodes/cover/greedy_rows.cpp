@@ -7,8 +7,6 @@
 namespace ballflow::geometry {
 namespace {
 
-constexpr std::size_t entries_between_looks = std::size_t{1} << 20;  // about a millisecond
-
 struct Candidate {
   std::size_t gain;  // columns it covered when it was last counted: it can only have fallen since
   std::int32_t row;
@@ -28,17 +26,15 @@ std::vector<std::int32_t> greedy_rows(const Csr& rows, std::size_t columns, Moni
   std::vector<std::uint8_t> covered(columns);
   std::size_t left = columns;
   std::vector<std::int32_t> picks;
-  std::size_t entries = entries_between_looks;
+  Lookout look(monitor);
   // A recounted row whose count did not fall beats every other, whose counts can only be too high.
   while (left > 0) {
-    if (entries >= entries_between_looks) {
-      monitor.step(1 - static_cast<double>(left) / static_cast<double>(columns));
-      entries = 0;
-    }
     const Candidate top = heap.top();
     heap.pop();
     const auto row = rows[static_cast<std::size_t>(top.row)];
-    entries += row.size() + 64;  // the heap takes time, too
+    if (look.due(row.size() + 64)) {  // the heap takes time, too
+      monitor.step(1 - static_cast<double>(left) / static_cast<double>(columns));
+    }
     const auto gain = static_cast<std::size_t>(std::count_if(
         row.begin(), row.end(), [&](std::int32_t c) { return covered[static_cast<std::size_t>(c)] == 0; }));
     if (gain < top.gain) {
@@ -54,12 +50,7 @@ std::vector<std::int32_t> greedy_rows(const Csr& rows, std::size_t columns, Moni
 
 std::vector<std::int32_t> without_redundant(const Csr& rows, std::size_t columns,
                                             const std::vector<std::int32_t>& picks, Monitor& monitor) {
-  std::size_t entries = 0;
-  const auto look = [&](std::size_t more) {
-    if ((entries += more) < entries_between_looks) return;
-    entries = 0;
-    if (monitor.cancelled()) throw Cancelled();
-  };
+  Lookout look(monitor);
   std::vector<std::int32_t> times(columns);
   for (const std::int32_t i : picks) {
     look(rows[static_cast<std::size_t>(i)].size());

@@ -31,19 +31,21 @@ Csr grouped(const Ids& group_of, const Ids& sizes) {
 
 /// The columns of the submatrix of `rows`, as sets of positions in `rows`. `number` has room for all columns.
 Csr columns_of(const CoverState& state, std::span<const std::int32_t> rows,
-               std::span<const std::int32_t> columns, Ids& number) {
+               std::span<const std::int32_t> columns, Ids& number, Monitor& monitor) {
   for (std::size_t k = 0; k < columns.size(); ++k) {
     number[static_cast<std::size_t>(columns[k])] = static_cast<std::int32_t>(k);
   }
   std::vector<std::int64_t> offsets{0};
   Ids entries;
+  Lookout look(monitor);
   for (const std::int32_t i : rows) {
+    look(state.row(static_cast<std::size_t>(i)).size());
     for (const std::int32_t c : state.row(static_cast<std::size_t>(i))) {
       entries.push_back(number[static_cast<std::size_t>(c)]);
     }
     offsets.push_back(static_cast<std::int64_t>(entries.size()));
   }
-  return transpose({std::move(offsets), std::move(entries)}, columns.size());
+  return transpose({std::move(offsets), std::move(entries)}, columns.size(), monitor);
 }
 
 /// The first column of `columns` that contains none of `rows`, which ascend.
@@ -204,7 +206,7 @@ CoverState ip_solve(const CoverState& state, IpSolver& solver, const IpSolveOpti
       continue;
     }
 
-    const Csr matrix = columns_of(state, rows, columns, number);
+    const Csr matrix = columns_of(state, rows, columns, number, monitor);
     Ids best;
     if (known) {
       best = known.among(state, rows);
@@ -250,7 +252,7 @@ CoverState ip_solve(const CoverState& state, IpSolver& solver, const IpSolveOpti
   }
   CoverState next = state;
   if (!chosen.empty()) {
-    next = choose(state, chosen, Choice::exact);
+    next = choose(state, chosen, Choice::exact, monitor);
     std::vector<std::uint8_t> how(state.chosen_how.begin(), state.chosen_how.end());
     for (const Choice choice : chosen_how) how.push_back(static_cast<std::uint8_t>(choice));
     next.chosen_how = std::move(how);

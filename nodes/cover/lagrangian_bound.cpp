@@ -37,7 +37,9 @@ Reals climb(const Part& part, const LagrangianBoundOptions& options, Monitor& mo
   const std::size_t rows = part.rows.size(), columns = part.columns.size();
   // The share of each sample in the longest row that contains it: the prices of Theorem 3.8.
   Reals u(columns);
+  Lookout look(monitor);
   for (std::size_t c = 0; c < columns; ++c) {
+    look(part.columns.degree(c));
     std::size_t longest = 1;
     for (const std::int32_t i : part.columns[c]) {
       longest = std::max(longest, part.rows.degree(static_cast<std::size_t>(i)));
@@ -45,7 +47,7 @@ Reals climb(const Part& part, const LagrangianBoundOptions& options, Monitor& mo
     u[c] = 1.0F / static_cast<float>(longest);
   }
   Reals best = u, direction(columns), slope(columns);
-  const auto upper = static_cast<double>(greedy_rows(part.rows, columns).size());
+  const auto upper = static_cast<double>(greedy_rows(part.rows, columns, monitor).size());
   const auto momentum = static_cast<float>(options.momentum);
   double best_bound = 0, factor = 1;
   std::int64_t waited = 0;
@@ -56,6 +58,7 @@ Reals climb(const Part& part, const LagrangianBoundOptions& options, Monitor& mo
     std::fill(slope.begin(), slope.end(), 1.0F);
     for (std::size_t i = 0; i < rows; ++i) {
       const auto row = part.rows[i];
+      look(row.size());
       const float load = load_of(row, u.data());
       if (load <= 1) continue;
       bound -= static_cast<double>(load) - 1;
@@ -86,12 +89,15 @@ Reals climb(const Part& part, const LagrangianBoundOptions& options, Monitor& mo
 }
 
 /// Makes the prices feasible, and as high as the balls of each sample allow.
-void repair(const Part& part, Units& prices) {
+void repair(const Part& part, Units& prices, Monitor& monitor) {
+  Lookout look(monitor);
   Units loads(part.rows.size());
   for (std::size_t i = 0; i < part.rows.size(); ++i) {
+    look(part.rows.degree(i));
     for (const std::int32_t c : part.rows[i]) loads[i] += prices[static_cast<std::size_t>(c)];
   }
   const auto change = [&](std::int32_t c, std::int64_t by) {
+    look(part.columns.degree(static_cast<std::size_t>(c)));
     prices[static_cast<std::size_t>(c)] += by;
     for (const std::int32_t i : part.columns[static_cast<std::size_t>(c)]) {
       loads[static_cast<std::size_t>(i)] += by;
@@ -99,6 +105,7 @@ void repair(const Part& part, Units& prices) {
   };
   // Taking a row's excess from its samples costs the sum no more than the row takes from L.
   for (std::size_t i = 0; i < part.rows.size(); ++i) {
+    look(part.rows.degree(i));
     for (const std::int32_t c : part.rows[i]) {
       if (loads[i] <= price_unit) break;
       const std::int64_t price = prices[static_cast<std::size_t>(c)];
@@ -106,6 +113,7 @@ void repair(const Part& part, Units& prices) {
     }
   }
   for (std::size_t c = 0; c < part.columns.size(); ++c) {
+    look(part.columns.degree(c));
     std::int64_t room = price_unit;
     for (const std::int32_t i : part.columns[c]) {
       room = std::min(room, price_unit - loads[static_cast<std::size_t>(i)]);
@@ -123,14 +131,14 @@ std::vector<std::int32_t> lagrangian_prices(const Part& part, const LagrangianBo
   for (std::size_t c = 0; c < u.size(); ++c) {
     prices[c] = static_cast<std::int64_t>(std::min(u[c], 1.0F) * static_cast<float>(price_unit));
   }
-  repair(part, prices);
+  repair(part, prices, monitor);
   return {prices.begin(), prices.end()};
 }
 
 CoverState lagrangian_bound(const CoverState& state, const LagrangianBoundOptions& options,
                             Monitor& monitor) {
   monitor.step(0);
-  const Parts parts(state);
+  const Parts parts(state, monitor);
   std::vector<std::vector<std::int32_t>> prices(parts.count());
   std::atomic<std::size_t> entries_done{0};
   tbb::parallel_for(std::size_t{0}, parts.count(), [&](std::size_t k) {
@@ -139,7 +147,7 @@ CoverState lagrangian_bound(const CoverState& state, const LagrangianBoundOption
       prices[k].front() = price_unit;
       return;
     }
-    const Part part = parts.part(k);
+    const Part part = parts.part(k, monitor);
     prices[k] = lagrangian_prices(part, options, monitor);
     entries_done += part.rows.entries.size();
     monitor.step(static_cast<double>(entries_done) / static_cast<double>(state.nnz()));
@@ -151,7 +159,7 @@ CoverState lagrangian_bound(const CoverState& state, const LagrangianBoundOption
     }
   }
   CoverState next = state;
-  prove(next, priced_groups(state, price));
+  prove(next, priced_groups(state, price, monitor));
   monitor.step(1);
   return next;
 }

@@ -189,7 +189,7 @@ CoverState cover_of(Lists lists, Monitor& monitor) {
   const auto elements = static_cast<std::size_t>(lists.elements);
   const bool of_elements = lists.of_elements;
   const Csr listed{std::move(lists.offsets), std::move(lists.entries)};
-  const Csr rows = of_elements ? transpose(listed, static_cast<std::size_t>(lists.sets)) : listed;
+  const Csr rows = of_elements ? transpose(listed, static_cast<std::size_t>(lists.sets), monitor) : listed;
   monitor.step(0.95);
 
   std::vector<std::int32_t> number(elements, -1), column_ids, uncovered, row_ids(rows.size());

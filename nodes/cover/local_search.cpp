@@ -38,22 +38,21 @@ std::vector<std::int64_t> component_bounds(const CoverState& state, const Parts&
 class Searches {
  public:
   Searches(const CoverState& state, const LocalSearchOptions& options, Monitor& monitor)
-      : state_(state), parts_(state), rows_(parts_.count()), searches_(parts_.count()) {
+      : state_(state), parts_(state, monitor), rows_(parts_.count()), searches_(parts_.count()) {
     const std::vector<std::int64_t> bounds = component_bounds(state, parts_);
     tbb::parallel_for(std::size_t{0}, parts_.count(), [&](std::size_t k) {
       if (const std::int32_t whole = parts_.whole_row(k); whole >= 0) {
         rows_[k] = {whole};
         return;
       }
-      if (monitor.cancelled()) throw Cancelled();
-      Part part = parts_.part(k);
+      Part part = parts_.part(k, monitor);
       const std::size_t columns = part.columns.size();
       const auto cover =
           without_redundant(part.rows, columns, greedy_rows(part.rows, columns, monitor), monitor);
       for (const std::int32_t i : cover) rows_[k].push_back(part.row_ids[static_cast<std::size_t>(i)]);
       if (static_cast<std::int64_t>(cover.size()) <= bounds[k]) return;
       searches_[k] = std::make_unique<WeightingSearch>(std::move(part), cover, bounds[k],
-                                                       static_cast<std::uint64_t>(options.seed) + k);
+                                                       static_cast<std::uint64_t>(options.seed) + k, monitor);
     });
   }
 

@@ -23,7 +23,6 @@ using Flags = std::vector<std::uint8_t>;
 using Ids = std::vector<std::int32_t>;
 
 constexpr std::size_t block = 128;  // sets handled in one task
-constexpr std::size_t entries_between_looks = 1 << 20;
 
 /// What two sets must satisfy before one can contain the other, cheaper to compare than the sets.
 struct Outline {
@@ -59,11 +58,14 @@ std::uint64_t section_bit(std::int32_t element, std::size_t universe) {
 }
 
 /// `rank` orders the elements, by their number where it is empty.
-std::vector<Outline> outlines_of(const Csr& sets, std::size_t universe, SubsetTest test, const Ids& rank) {
+std::vector<Outline> outlines_of(const Csr& sets, std::size_t universe, SubsetTest test, const Ids& rank,
+                                 Monitor& monitor) {
   std::vector<Outline> outlines(sets.size());
   tbb::parallel_for(std::size_t{0}, (sets.size() + block - 1) / block, [&](std::size_t b) {
+    Lookout look(monitor);
     for (std::size_t i = b * block; i < std::min(sets.size(), (b + 1) * block); ++i) {
       const auto set = sets[i];
+      look(set.size());
       Outline& o = outlines[i];
       o = {0, -1, -1, static_cast<std::int32_t>(set.size())};
       if (set.empty()) continue;
@@ -93,8 +95,8 @@ void mark(std::uint8_t& flag) { std::atomic_ref(flag).store(1, std::memory_order
 /// and goes on to neighbours by degree; ties go to rows before columns, then to the lowest number.
 class BandwidthOrder {
  public:
-  BandwidthOrder(const Csr& rows, const Csr& columns)
-      : sides_{Side{rows, Ids(rows.size(), -1)}, Side{columns, Ids(columns.size(), -1)}} {
+  BandwidthOrder(const Csr& rows, const Csr& columns, Monitor& monitor)
+      : look_(monitor), sides_{Side{rows, Ids(rows.size(), -1)}, Side{columns, Ids(columns.size(), -1)}} {
     std::vector<Vertex> starts;
     for (const bool column : {false, true}) {
       for (std::size_t v = 0; v < side(column).adjacent.size(); ++v)
@@ -134,6 +136,7 @@ class BandwidthOrder {
     Ids neighbours;
     for (std::size_t at = 0; at < queue_.size(); ++at) {
       const Vertex v = queue_[at];
+      look_(degree(v));
       neighbours.clear();
       for (const std::int32_t u : side(v.column).adjacent[static_cast<std::size_t>(v.number)]) {
         if (!met({!v.column, u})) neighbours.push_back(u);
@@ -145,6 +148,7 @@ class BandwidthOrder {
     }
   }
 
+  Lookout look_;
   std::array<Side, 2> sides_;
   std::vector<Vertex> queue_;
 };
@@ -196,14 +200,13 @@ struct Window {
 /// `rank` orders the elements for SubsetTest::bandwidth, and is empty otherwise.
 Flags dominated(const Csr& sets, const Csr& members, const Ids& dirty, Keep keep, SubsetTest test,
                 const Ids& rank, ReduceStatistics& statistics, Monitor& monitor) {
-  const std::vector<Outline> outlines = outlines_of(sets, members.size(), test, rank);
+  const std::vector<Outline> outlines = outlines_of(sets, members.size(), test, rank, monitor);
   const Window window(test == SubsetTest::bandwidth ? outlines : std::vector<Outline>());
   Flags gone(sets.size());
   std::atomic<std::int64_t> candidates{0}, compared{0};
   tbb::parallel_for(std::size_t{0}, (dirty.size() + block - 1) / block, [&](std::size_t b) {
-    if (monitor.cancelled()) throw Cancelled();
+    Lookout look(monitor);
     std::int64_t looked_at = 0, opened = 0;
-    std::size_t entries = 0;  // compared since the last look at the monitor: rows of dense matrices are long
     for (std::size_t d = b * block; d < std::min(dirty.size(), (b + 1) * block); ++d) {
       const auto i = static_cast<std::size_t>(dirty[d]);
       const auto inner = sets[i];
@@ -215,13 +218,10 @@ Flags dominated(const Csr& sets, const Csr& members, const Ids& dirty, Keep keep
       // Returns false when nothing more can follow from i.
       const auto look_at = [&](std::size_t k) {
         ++looked_at;
-        if (++entries > entries_between_looks) {
-          if (monitor.cancelled()) throw Cancelled();
-          entries = 0;
-        }
+        look(1);
         if (k == i || !outlines[k].may_contain(outlines[i]) || marked(gone[k])) return true;
         ++opened;
-        entries += inner.size() + sets[k].size();
+        look(inner.size() + sets[k].size());
         if (!contains(sets[k], inner)) return true;
         const bool equal = outlines[k].degree == outlines[i].degree;
         const bool inner_goes = keep == Keep::maximal ? !equal || k < i : equal && k < i;
@@ -239,6 +239,7 @@ Flags dominated(const Csr& sets, const Csr& members, const Ids& dirty, Keep keep
         }
         continue;
       }
+      look(inner.size());
       const std::int32_t rarest =
           *std::min_element(inner.begin(), inner.end(), [&](std::int32_t x, std::int32_t y) {
             return members.degree(static_cast<std::size_t>(x)) < members.degree(static_cast<std::size_t>(y));
@@ -280,7 +281,8 @@ struct Matrix {
 
 /// `sets` without those in `gone_sets` and without the elements in `gone_elements`, renumbered. `shrunk`
 /// becomes the new numbers of the sets that lost elements.
-Csr without(const Csr& sets, const Flags& gone_sets, const Flags& gone_elements, Ids& shrunk) {
+Csr without(const Csr& sets, const Flags& gone_sets, const Flags& gone_elements, Ids& shrunk,
+            Monitor& monitor) {
   const bool all_elements = std::find(gone_elements.begin(), gone_elements.end(), 1) == gone_elements.end();
   std::vector<std::int32_t> number(gone_elements.size(), -1);
   std::int32_t next = 0;
@@ -288,15 +290,16 @@ Csr without(const Csr& sets, const Flags& gone_sets, const Flags& gone_elements,
     if (gone_elements[e] == 0) number[e] = next++;
   }
   std::vector<std::int64_t> offsets{0};
-  std::vector<std::int32_t> entries;
   std::size_t most = 0;
   for (std::size_t i = 0; i < sets.size(); ++i) most += gone_sets[i] == 0 ? sets.degree(i) : 0;
-  entries.resize(most);
+  auto entries = zeros<std::int32_t>(most, monitor);
   std::size_t size = 0;
+  Lookout look(monitor);
   shrunk.clear();
   for (std::size_t i = 0; i < sets.size(); ++i) {
     if (gone_sets[i] != 0) continue;
     const auto set = sets[i];
+    look(set.size());
     if (all_elements) {
       std::copy(set.begin(), set.end(), entries.begin() + static_cast<std::ptrdiff_t>(size));
       size += set.size();
@@ -328,13 +331,13 @@ CoverState reduce(const CoverState& state, const ReduceOptions& options, Monitor
                   ReduceStatistics* statistics) {
   monitor.step(0);
   Matrix matrix{rows_of(state),
-                transpose(rows_of(state), state.cols()),
+                transpose(rows_of(state), state.cols(), monitor),
                 Ids(state.row_ids.begin(), state.row_ids.end()),
                 Ids(state.column_ids.begin(), state.column_ids.end()),
                 {},
                 {}};
   if (options.subset_test == SubsetTest::bandwidth) {
-    BandwidthOrder order(matrix.rows, matrix.columns);
+    BandwidthOrder order(matrix.rows, matrix.columns, monitor);
     matrix.row_rank = order.row_rank();
     matrix.column_rank = order.column_rank();
   }
@@ -352,8 +355,8 @@ CoverState reduce(const CoverState& state, const ReduceOptions& options, Monitor
     dirty_rows.clear();
     if (any(gone_rows)) {
       Ids shrunk;
-      matrix.rows = without(matrix.rows, gone_rows, none_of_columns, shrunk);
-      matrix.columns = without(matrix.columns, none_of_columns, gone_rows, shrunk);
+      matrix.rows = without(matrix.rows, gone_rows, none_of_columns, shrunk, monitor);
+      matrix.columns = without(matrix.columns, none_of_columns, gone_rows, shrunk, monitor);
       matrix.erase_rows(gone_rows);
       if (round > 1) dirty_columns = std::move(shrunk);
     }
@@ -382,8 +385,8 @@ CoverState reduce(const CoverState& state, const ReduceOptions& options, Monitor
     }
     if (any(gone_columns)) {
       Ids unchanged;
-      matrix.columns = without(matrix.columns, gone_columns, essential, unchanged);
-      matrix.rows = without(matrix.rows, essential, gone_columns, dirty_rows);
+      matrix.columns = without(matrix.columns, gone_columns, essential, unchanged, monitor);
+      matrix.rows = without(matrix.rows, essential, gone_columns, dirty_rows, monitor);
       matrix.erase_columns(gone_columns);
       matrix.erase_rows(essential);
     }

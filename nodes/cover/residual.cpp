@@ -6,13 +6,18 @@
 
 namespace ballflow::geometry {
 
-Csr transpose(const Csr& rows, std::size_t columns) {
+Csr transpose(const Csr& rows, std::size_t columns, Monitor& monitor) {
+  Lookout look(monitor);
   std::vector<std::int64_t> offsets(columns + 1);
-  for (const std::int32_t c : rows.entries) ++offsets[static_cast<std::size_t>(c) + 1];
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    look(rows.degree(i));
+    for (const std::int32_t c : rows[i]) ++offsets[static_cast<std::size_t>(c) + 1];
+  }
   for (std::size_t c = 0; c < columns; ++c) offsets[c + 1] += offsets[c];
   std::vector<std::int64_t> next(offsets.begin(), offsets.end() - 1);
-  std::vector<std::int32_t> entries(rows.entries.size());
+  auto entries = zeros<std::int32_t>(rows.entries.size(), monitor);
   for (std::size_t i = 0; i < rows.size(); ++i) {
+    look(rows.degree(i));
     for (const std::int32_t c : rows[i]) {
       entries[static_cast<std::size_t>(next[static_cast<std::size_t>(c)]++)] = static_cast<std::int32_t>(i);
     }
@@ -21,12 +26,7 @@ Csr transpose(const Csr& rows, std::size_t columns) {
 }
 
 CoverState choose(const CoverState& state, std::span<const std::int32_t> rows, Choice how, Monitor& monitor) {
-  std::size_t entries = 0;
-  const auto look = [&](std::size_t more) {
-    if ((entries += more) < (std::size_t{1} << 20)) return;  // about a millisecond
-    entries = 0;
-    if (monitor.cancelled()) throw Cancelled();
-  };
+  Lookout look(monitor);
   CoverState next = state;
   std::vector<std::int32_t> chosen(state.chosen.begin(), state.chosen.end());
   std::vector<std::uint8_t> chosen_how(state.chosen_how.begin(), state.chosen_how.end());
@@ -48,6 +48,7 @@ CoverState choose(const CoverState& state, std::span<const std::int32_t> rows, C
   }
   std::vector<std::int64_t> offsets{0};
   std::vector<std::int32_t> columns, row_ids;
+  columns.reserve(state.nnz());  // growing would copy gigabytes at once; what is not used is never touched
   for (std::size_t i = 0; i < state.rows(); ++i) {
     if (gone_row[i] != 0) continue;
     look(state.row(i).size());

@@ -1,8 +1,10 @@
 // Steps that every pruning method shares: choosing rows, and what that proves about the optimum.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "types/cover_state.hpp"
 #include "types/monitor.hpp"
@@ -25,7 +27,20 @@ struct Csr {
 inline Csr rows_of(const CoverState& state) { return {state.row_offsets, state.columns}; }
 
 /// The columns of a matrix given by its rows (or the reverse), each ascending.
-Csr transpose(const Csr& rows, std::size_t columns);
+Csr transpose(const Csr& rows, std::size_t columns, Monitor& monitor = no_monitor());
+
+/// `size` zeros. The pages of a large array are made piece by piece: gigabytes take seconds.
+template <class T>
+std::vector<T> zeros(std::size_t size, Monitor& monitor) {
+  constexpr std::size_t piece = std::size_t{1} << 20;
+  std::vector<T> values;
+  values.reserve(size);
+  while (values.size() < size) {
+    if (monitor.cancelled()) throw Cancelled();
+    values.resize(std::min(size, values.size() + piece));
+  }
+  return values;
+}
 
 /// Appends `rows` (distinct indices into the residual matrix) to the chosen balls, in that order, and takes
 /// out of the matrix these rows, the columns they cover, and rows that then cover nothing. Counts and

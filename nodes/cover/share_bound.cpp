@@ -12,8 +12,10 @@ namespace ballflow::geometry {
 CoverState share_bound(const CoverState& state, Monitor& monitor) {
   monitor.step(0);
   std::vector<std::int64_t> longest(state.cols(), 1);
+  Lookout look(monitor);
   for (std::size_t i = 0; i < state.rows(); ++i) {
     const auto row = state.row(i);
+    look(row.size());
     for (const std::int32_t c : row) {
       std::int64_t& length = longest[static_cast<std::size_t>(c)];
       length = std::max(length, static_cast<std::int64_t>(row.size()));
@@ -23,7 +25,7 @@ CoverState share_bound(const CoverState& state, Monitor& monitor) {
 
   // Shares in units far below 1 / (2^31 samples), rounded down: the bound holds whatever is lost.
   constexpr std::int64_t fine = std::int64_t{1} << 44;
-  const Parts parts(state);
+  const Parts parts(state, monitor);
   PricedGroups groups;
   std::int64_t bound = optimal_choices(state);
   for (std::size_t k = 0; k < parts.count(); ++k) {

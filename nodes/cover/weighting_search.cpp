@@ -17,7 +17,7 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
 WeightingSearch::WeightingSearch(Part part, const std::vector<std::int32_t>& cover, std::int64_t bound,
-                                 std::uint64_t seed, std::int64_t weight_limit)
+                                 std::uint64_t seed, Monitor& monitor, std::int64_t weight_limit)
     : part_(std::move(part)),
       bound_(bound),
       random_(seed),
@@ -39,7 +39,8 @@ WeightingSearch::WeightingSearch(Part part, const std::vector<std::int32_t>& cov
   for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].gain = static_cast<Id>(part_.rows.degree(i));
   for (std::size_t s = cover.size(); s > 0; --s) free_.push_back(static_cast<Id>(s - 1));
   std::sort(best_.begin(), best_.end());
-  for (const Id row : best_) add(row);
+  Lookout look(monitor);
+  for (const Id row : best_) add(row, look);
 }
 
 void WeightingSearch::change_loss(Id slot, std::int32_t by) {
@@ -66,13 +67,14 @@ void WeightingSearch::find_least(std::size_t b, std::int32_t except) {
   least_slot_[b] = static_cast<Id>(slot);
 }
 
-void WeightingSearch::add(Id row) {
+void WeightingSearch::add(Id row, Lookout& look) {
   const Id slot = free_.back();
   free_.pop_back();
   std::int32_t loss = 0;
   for (const Id c : part_.rows[at(row)]) {
     Column& column = columns_[at(c)];
     if (++column.times == 1) {
+      look(part_.columns.degree(at(c)));
       loss += column.weight;
       for (const Id other : part_.columns[at(c)]) rows_[at(other)].gain -= column.weight;
       const Id last = uncovered_.back();
@@ -96,7 +98,7 @@ void WeightingSearch::add(Id row) {
   ++size_;
 }
 
-void WeightingSearch::drop(Id row) {
+void WeightingSearch::drop(Id row, Lookout& look) {
   const Id slot = slot_of_[at(row)];
   slot_of_[at(row)] = -1;
   row_in_[at(slot)] = -1;
@@ -109,6 +111,7 @@ void WeightingSearch::drop(Id row) {
     Column& column = columns_[at(c)];
     column.keepers ^= slot;
     if (--column.times == 0) {
+      look(part_.columns.degree(at(c)));
       for (const Id other : part_.columns[at(c)]) rows_[at(other)].gain += column.weight;
       column.place = static_cast<Id>(uncovered_.size());
       uncovered_.push_back(c);
@@ -144,16 +147,17 @@ WeightingSearch::Id WeightingSearch::best_gain(Id column) const {
   return best < 0 ? last_dropped_ : best;
 }
 
-void WeightingSearch::weigh_uncovered() {
+void WeightingSearch::weigh_uncovered(Lookout& look) {
   for (const Id c : uncovered_) {
+    look(part_.columns.degree(at(c)));
     ++columns_[at(c)].weight;
     for (const Id row : part_.columns[at(c)]) ++rows_[at(row)].gain;
   }
   weight_sum_ += static_cast<std::int64_t>(uncovered_.size());
-  if (weight_sum_ >= weight_limit_) halve_weights();
+  if (weight_sum_ >= weight_limit_) halve_weights(look);
 }
 
-void WeightingSearch::halve_weights() {
+void WeightingSearch::halve_weights(Lookout& look) {
   weight_sum_ = 0;
   for (Row& row : rows_) row.gain = 0;
   for (std::int64_t& key : keys_) {
@@ -164,6 +168,7 @@ void WeightingSearch::halve_weights() {
     column.weight = (column.weight + 1) / 2;
     weight_sum_ += column.weight;
     if (column.times == 0) {
+      look(part_.columns.degree(c));
       for (const Id row : part_.columns[c]) rows_[at(row)].gain += column.weight;
     } else if (column.times == 1) {
       keys_[at(column.keepers)] += column.weight * loss_unit;
@@ -181,8 +186,8 @@ std::size_t WeightingSearch::random_below(std::size_t n) {
 }
 
 void WeightingSearch::run(std::int64_t steps, Monitor& monitor) {
+  Lookout look(monitor);
   for (std::int64_t k = 0; k < steps; ++k) {
-    if (k % 1024 == 0 && monitor.cancelled()) throw Cancelled();
     while (uncovered_.empty()) {
       if (size_ < best_.size()) {
         best_.clear();
@@ -192,16 +197,17 @@ void WeightingSearch::run(std::int64_t steps, Monitor& monitor) {
       }
       if (proven()) return;
       last_added_ = -1;
-      drop(least_loss());
+      drop(least_loss(), look);
     }
     ++step_;
     const Id dropped = least_loss();
-    drop(dropped);
+    drop(dropped, look);
     last_dropped_ = dropped;
     const Id added = best_gain(uncovered_[random_below(uncovered_.size())]);
-    add(added);
+    add(added, look);
     last_added_ = added;
-    weigh_uncovered();
+    weigh_uncovered(look);
+    look(part_.rows.degree(at(dropped)) + part_.rows.degree(at(added)) + 256);
   }
 }
 

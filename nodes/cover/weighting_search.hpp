@@ -15,9 +15,9 @@ class WeightingSearch {
   /// `cover` is any cover of `part` without redundant rows, `bound` no more than the smallest one.
   /// Weights are halved when their sum reaches `weight_limit`, so that all sums of them fit 31 bits.
   WeightingSearch(Part part, const std::vector<std::int32_t>& cover, std::int64_t bound, std::uint64_t seed,
-                  std::int64_t weight_limit = std::int64_t{1} << 30);
+                  Monitor& monitor, std::int64_t weight_limit = std::int64_t{1} << 30);
 
-  /// Goes on for `steps` steps, or until the best cover has `bound` rows.
+  /// Goes on for `steps` steps, or until the best cover has `bound` rows. Not to be used after Cancelled.
   void run(std::int64_t steps, Monitor& monitor);
 
   bool proven() const { return static_cast<std::int64_t>(best_.size()) <= bound_; }
@@ -39,14 +39,14 @@ class WeightingSearch {
     Id place = -1;  // in uncovered_
   };
 
-  void add(Id row);
-  void drop(Id row);
+  void add(Id row, Lookout& look);
+  void drop(Id row, Lookout& look);
   void change_loss(Id slot, std::int32_t by);
   void find_least(std::size_t block, std::int32_t except);
   Id least_loss();
   Id best_gain(Id column) const;
-  void weigh_uncovered();
-  void halve_weights();
+  void weigh_uncovered(Lookout& look);
+  void halve_weights(Lookout& look);
   std::size_t random_below(std::size_t n);
 
   Part part_;

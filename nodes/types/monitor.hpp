@@ -2,6 +2,7 @@
 // knowing who runs it.
 #pragma once
 
+#include <cstddef>
 #include <exception>
 #include <stdexcept>
 #include <string>
@@ -49,6 +50,33 @@ class PartMonitor final : public Monitor {
  private:
   Monitor& whole_;
   double begin_, end_;
+};
+
+/// Looks at a monitor from a loop of many small steps: at once, then about every millisecond, however large
+/// the data. Each thread, or task, has one of its own.
+class Lookout {
+ public:
+  explicit Lookout(Monitor& monitor) : monitor_(monitor) { look(); }
+
+  /// `work` array elements more have been visited; throws Cancelled when the result is no longer wanted.
+  void operator()(std::size_t work) {
+    if (due(work)) look();
+  }
+  /// For loops that report progress: true when it is time for a step.
+  bool due(std::size_t work) {
+    if ((work_ += work) < elements_between_looks) return false;
+    work_ = 0;
+    return true;
+  }
+
+ private:
+  void look() {
+    if (monitor_.cancelled()) throw Cancelled();
+  }
+
+  static constexpr std::size_t elements_between_looks = std::size_t{1} << 20;
+  Monitor& monitor_;
+  std::size_t work_ = 0;
 };
 
 /// The monitor of callers that watch nothing.

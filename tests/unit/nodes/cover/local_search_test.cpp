@@ -162,7 +162,7 @@ TEST(local_search, finds_the_optimum_with_weights_that_are_halved_all_the_time) 
       const Part part = parts.part(k);
       const auto start =
           without_redundant(part.rows, part.columns.size(), greedy_rows(part.rows, part.columns.size()));
-      WeightingSearch search(part, start, 1, 7, 100);
+      WeightingSearch search(part, start, 1, 7, no_monitor(), 100);
       search.run(3000, no_monitor());
       std::set<std::int32_t> covered;
       for (const std::int32_t i : search.best()) {
