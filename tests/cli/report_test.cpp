@@ -60,7 +60,8 @@ TEST_F(ReportCli, plots_a_sweep_and_names_the_content_of_its_files) {
   const std::string shown = page({"latest"});
   EXPECT_NE(shown.find("class=\"band\""), std::string::npos) << "balls down to their bound";
   EXPECT_NE(shown.find("6 variants"), std::string::npos);
-  const auto digest = test::run_process({"sha256sum", folder.file("box.off")}).out.substr(0, 64);
+  const auto digest = test::run_process({"/usr/bin/sha256sum", folder.file("box.off")}).out.substr(0, 64);
+  ASSERT_EQ(digest.size(), 64u);
   EXPECT_NE(shown.find("<td>" + folder.file("box.off") + "</td><td><code>" + digest), std::string::npos);
 }
 

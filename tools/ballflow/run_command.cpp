@@ -151,6 +151,16 @@ void check_writable(const std::string& option, const std::string& path) {
               "choose a file in a folder that exists and can be written");
 }
 
+/// Which nodes a run is about; as Dag::nodes.
+std::vector<bool> looked_at(const Dag& dag, const RunOptions& options) {
+  if (options.only.empty()) {
+    return options.until.empty() ? needed_nodes(dag) : needed_nodes(dag, options.until);
+  }
+  std::vector<bool> nodes(dag.nodes.size(), false);
+  for (const std::size_t node : options.only) nodes[node] = true;
+  return nodes;
+}
+
 int run(const Common& common, const RunArguments& arguments) {
   std::map<std::string, std::string> formats;
   for (const std::string& format : arguments.formats) {
@@ -186,8 +196,18 @@ int run(const Common& common, const RunArguments& arguments) {
   // Who reads the progress may go; the results are wanted nevertheless.
   const auto on_broken_pipe = std::signal(SIGPIPE, SIG_IGN);
   options.cancel = &cancel;
-  Sinks sinks;
-  if (!arguments.quiet) sinks.add(progress_display(dag, isatty(STDERR_FILENO) != 0));
+  const Manifests earlier = latest_manifests(*store, arguments.graph.file);
+  Sinks sinks;  // after what they use
+  if (!arguments.quiet) {
+    Expectations expectations;
+    expectations.needed = looked_at(dag, options);
+    expectations.plan = [&dag, store, &options, &earlier] {
+      std::vector<NodePlan> plans = plan(dag, *store, options.seed, earlier);
+      for (const std::size_t node : options.force) plans[node].verdict = NodePlan::Verdict::run;
+      return plans;
+    };
+    sinks.add(progress_display(dag, isatty(STDERR_FILENO) != 0, std::move(expectations)));
+  }
   if (arguments.json) sinks.add(event_lines(dag));
   Trace* timeline = nullptr;
   if (!arguments.trace.empty()) {
@@ -195,7 +215,7 @@ int run(const Common& common, const RunArguments& arguments) {
     timeline = sink.get();
     sinks.add(std::move(sink));
   }
-  Runner runner(dag, *registry, store, options, sinks, latest_manifests(*store, arguments.graph.file));
+  Runner runner(dag, *registry, store, options, sinks, earlier);
   const RunResult& result = runner.run();
 
   WrittenOutputs written;
