@@ -1,7 +1,5 @@
-// Balls: ply, csv, obj.
+// Balls: centres and radii.
 #include "export/format_table.hpp"
-#include "export/mesh_text.hpp"
-#include "export/typed.hpp"
 #include "types/artifact_types.hpp"
 
 namespace ballflow {
@@ -9,34 +7,28 @@ namespace {
 
 using geometry::Balls;
 
-void write_ply(const Artifact& artifact, OutputFile& out) {
-  const auto balls = typed<Balls>(artifact);
-  ply_header(out, {{"vertex", balls.size(), {"double x", "double y", "double z", "double radius"}}});
-  for (std::size_t i = 0; i < balls.size(); ++i) {
-    raw(out, balls.centers[i]);
-    out.raw(balls.radii[i]);
-  }
-}
-
-void write_csv(const Artifact& artifact, OutputFile& out) {
-  const auto balls = typed<Balls>(artifact);
-  out << "x,y,z,r\n";
-  for (std::size_t i = 0; i < balls.size(); ++i) {
-    text(out, balls.centers[i], ',');
-    out << ',' << balls.radii[i] << '\n';
-  }
-}
-
-void write_obj(const Artifact& artifact, OutputFile& out) {
-  const auto balls = typed<Balls>(artifact);
-  out << "# centers of balls; their radii are in ply and csv exports\n";
-  obj_vertices(out, balls.centers);
+PolyData poly_data(const Balls& balls) {
+  PolyData data;
+  data.points = balls.centers;
+  data.radii = balls.radii;
+  data.dot_every_point();
+  return data;
 }
 
 }  // namespace
 
 TypeFormats balls_formats() {
-  return {"Balls", {{"ply", write_ply}, {"csv", write_csv}, {"obj", write_obj}}};
+  return {"Balls",
+          {format<Balls, poly_data, write_ply>("ply"),
+           format<Balls, poly_data, write_csv>("csv"),
+           format<Balls, poly_data, write_obj>("obj"),
+           format<Balls, poly_data, write_vtp>("vtp"),
+           format<Balls, poly_data, write_npy>("npy"),
+           {"glb", write_glb},
+           format<Balls, poly_data, write_ma>("ma"),
+           format<Balls, poly_data, write_sph>("sph"),
+           format<Balls, poly_data, write_yaml>("yaml"),
+           format<Balls, poly_data, write_urdf>("urdf")}};
 }
 
 }  // namespace ballflow

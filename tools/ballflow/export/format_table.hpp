@@ -1,11 +1,15 @@
-// How the files of this folder offer formats to export.cpp: one TypeFormats per artifact type.
+// How the files of this folder offer formats to export.cpp: one TypeFormats per artifact type. A new type is
+// one file with a poly_data() and a line here and in export.cpp; a new format is one file in formats/, a line
+// in formats.hpp, and its name in the types that have it.
 #pragma once
 
 #include <string_view>
 #include <vector>
 
 #include "ballflow/artifact.hpp"
+#include "export/formats.hpp"
 #include "export/output_file.hpp"
+#include "export/typed.hpp"
 
 namespace ballflow {
 
@@ -18,6 +22,12 @@ struct TypeFormats {
   std::string_view type;
   std::vector<Format> formats;  // the default first
 };
+
+/// `write` applied to what `convert`, a function that takes a T, makes of the artifact.
+template <class T, PolyData (*convert)(const T&), void (*write)(const PolyData&, OutputFile&)>
+Format format(std::string_view name) {
+  return {name, [](const Artifact& artifact, OutputFile& out) { write(convert(typed<T>(artifact)), out); }};
+}
 
 TypeFormats point_set_formats();
 TypeFormats triangle_mesh_formats();

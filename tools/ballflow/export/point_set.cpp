@@ -1,7 +1,5 @@
-// PointSet: ply, xyz, csv, off.
+// PointSet: its points with their normals, where there are any.
 #include "export/format_table.hpp"
-#include "export/mesh_text.hpp"
-#include "export/typed.hpp"
 #include "types/artifact_types.hpp"
 
 namespace ballflow {
@@ -9,45 +7,25 @@ namespace {
 
 using geometry::PointSet;
 
-void write_ply(const Artifact& artifact, OutputFile& out) {
-  const auto set = typed<PointSet>(artifact);
-  PlyElement vertex{"vertex", set.points.size(), {"double x", "double y", "double z"}};
-  const bool normals = !set.normals.empty();
-  if (normals) vertex.properties.insert(vertex.properties.end(), {"double nx", "double ny", "double nz"});
-  ply_header(out, {vertex});
-  for (std::size_t i = 0; i < set.points.size(); ++i) {
-    raw(out, set.points[i]);
-    if (normals) raw(out, set.normals[i]);
-  }
-}
-
-void write_rows(const PointSet& set, OutputFile& out, char separator) {
-  for (std::size_t i = 0; i < set.points.size(); ++i) {
-    text(out, set.points[i], separator);
-    if (!set.normals.empty()) {
-      out << separator;
-      text(out, set.normals[i], separator);
-    }
-    out << '\n';
-  }
-}
-
-void write_xyz(const Artifact& artifact, OutputFile& out) { write_rows(typed<PointSet>(artifact), out, ' '); }
-
-void write_csv(const Artifact& artifact, OutputFile& out) {
-  const auto set = typed<PointSet>(artifact);
-  out << (set.normals.empty() ? "x,y,z\n" : "x,y,z,nx,ny,nz\n");
-  write_rows(set, out, ',');
-}
-
-void write_off(const Artifact& artifact, OutputFile& out) {
-  off_header(out, typed<PointSet>(artifact).points, 0);
+PolyData poly_data(const PointSet& set) {
+  PolyData data;
+  data.points = set.points;
+  data.normals = set.normals;
+  data.dot_every_point();
+  return data;
 }
 
 }  // namespace
 
 TypeFormats point_set_formats() {
-  return {"PointSet", {{"ply", write_ply}, {"xyz", write_xyz}, {"csv", write_csv}, {"off", write_off}}};
+  return {"PointSet",
+          {format<PointSet, poly_data, write_ply>("ply"),
+           format<PointSet, poly_data, write_xyz>("xyz"),
+           format<PointSet, poly_data, write_csv>("csv"),
+           format<PointSet, poly_data, write_off>("off"),
+           format<PointSet, poly_data, write_vtp>("vtp"),
+           format<PointSet, poly_data, write_npy>("npy"),
+           {"glb", write_glb}}};
 }
 
 }  // namespace ballflow

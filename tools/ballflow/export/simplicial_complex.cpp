@@ -1,10 +1,8 @@
-// SimplicialComplex: ply, obj, off. Vertices of the complex are numbered anew in their order. Interior
-// triangles are left out, as they cannot be seen, and so are sides of triangles.
+// SimplicialComplex, its vertices numbered anew in their order. Most formats show what can be seen: interior
+// triangles are left out, and so are sides of triangles. ma is for computing and has all triangles and edges.
 #include <cmath>
 
 #include "export/format_table.hpp"
-#include "export/mesh_text.hpp"
-#include "export/typed.hpp"
 #include "types/artifact_types.hpp"
 
 namespace ballflow {
@@ -12,78 +10,72 @@ namespace {
 
 using geometry::SimplexClass;
 using geometry::SimplicialComplex;
-using geometry::Vec3;
 
-struct Drawing {
-  std::vector<Vec3> vertices;
-  std::vector<double> radii;
-  std::vector<std::array<std::int32_t, 3>> triangles;
-  std::vector<std::uint8_t> triangle_classes;
-  std::vector<std::array<std::int32_t, 2>> edges;
-};
+constexpr auto interior = static_cast<std::uint8_t>(SimplexClass::interior);
+constexpr auto singular = static_cast<std::uint8_t>(SimplexClass::singular);
 
-Drawing drawing_of(const Artifact& artifact) {
-  const auto complex = typed<SimplicialComplex>(artifact);
-  Drawing drawing;
+/// The simplices for which the last two arguments say yes to their class.
+template <class EdgeFilter, class TriangleFilter>
+PolyData part(const SimplicialComplex& complex, EdgeFilter keeps_edge, TriangleFilter keeps_triangle) {
+  PolyData data;
   std::vector<std::int32_t> number(complex.centers.size());
-  for (const std::int32_t ball : complex.vertices) {
-    const auto i = static_cast<std::size_t>(ball);
-    number[i] = static_cast<std::int32_t>(drawing.vertices.size());
-    drawing.vertices.push_back(complex.centers[i]);
-    drawing.radii.push_back(std::sqrt(complex.weights[i]));
+  std::vector<geometry::Vec3> points;
+  std::vector<double> radii;
+  for (std::size_t i = 0; i < complex.vertices.size(); ++i) {
+    const auto ball = static_cast<std::size_t>(complex.vertices[i]);
+    number[ball] = static_cast<std::int32_t>(i);
+    points.push_back(complex.centers[ball]);
+    radii.push_back(std::sqrt(complex.weights[ball]));
+    if (complex.vertex_classes[i] == singular) data.dots.push_back(static_cast<std::int32_t>(i));
   }
-  const auto renumbered = [&](auto simplex) {
+  const auto renumbered = [&number](auto simplex) {
     for (std::int32_t& v : simplex) v = number[static_cast<std::size_t>(v)];
     return simplex;
   };
-  for (std::size_t i = 0; i < complex.triangles.size(); ++i) {
-    if (complex.triangle_classes[i] == static_cast<std::uint8_t>(SimplexClass::interior)) continue;
-    drawing.triangles.push_back(renumbered(complex.triangles[i]));
-    drawing.triangle_classes.push_back(complex.triangle_classes[i]);
-  }
+  std::vector<Edge> edges;
   for (std::size_t i = 0; i < complex.edges.size(); ++i) {
-    if (complex.edge_classes[i] != static_cast<std::uint8_t>(SimplexClass::singular)) continue;
-    drawing.edges.push_back(renumbered(complex.edges[i]));
+    if (keeps_edge(complex.edge_classes[i])) edges.push_back(renumbered(complex.edges[i]));
   }
-  return drawing;
+  std::vector<Triangle> triangles;
+  std::vector<std::uint8_t> classes;
+  for (std::size_t i = 0; i < complex.triangles.size(); ++i) {
+    if (!keeps_triangle(complex.triangle_classes[i])) continue;
+    triangles.push_back(renumbered(complex.triangles[i]));
+    classes.push_back(complex.triangle_classes[i]);
+  }
+  data.points = std::move(points);
+  data.radii = std::move(radii);
+  data.edges = std::move(edges);
+  data.set_triangles(triangles);
+  data.polygon_codes = {"class", std::move(classes)};
+  data.dot_and_edge_code = singular;
+  return data;
 }
 
-void write_ply(const Artifact& artifact, OutputFile& out) {
-  const Drawing d = drawing_of(artifact);
-  ply_header(out, {{"vertex", d.vertices.size(), {"double x", "double y", "double z", "double radius"}},
-                   {"face", d.triangles.size(), {"list uchar int vertex_indices", "uchar class"}},
-                   {"edge", d.edges.size(), {"int vertex1", "int vertex2"}}});
-  for (std::size_t i = 0; i < d.vertices.size(); ++i) {
-    raw(out, d.vertices[i]);
-    out.raw(d.radii[i]);
-  }
-  for (std::size_t i = 0; i < d.triangles.size(); ++i) {
-    out.raw(std::uint8_t{3});
-    for (const std::int32_t v : d.triangles[i]) out.raw(v);
-    out.raw(d.triangle_classes[i]);
-  }
-  for (const auto& edge : d.edges) {
-    for (const std::int32_t v : edge) out.raw(v);
-  }
+PolyData visible(const SimplicialComplex& complex) {
+  return part(
+      complex, [](std::uint8_t c) { return c == singular; }, [](std::uint8_t c) { return c != interior; });
 }
 
-void write_obj(const Artifact& artifact, OutputFile& out) {
-  const Drawing d = drawing_of(artifact);
-  obj_vertices(out, d.vertices);
-  for (const auto& t : d.triangles) obj_element(out, 'f', t);
-  for (const auto& e : d.edges) obj_element(out, 'l', e);
-}
-
-void write_off(const Artifact& artifact, OutputFile& out) {
-  const Drawing d = drawing_of(artifact);
-  off_header(out, d.vertices, d.triangles.size());
-  for (const auto& t : d.triangles) off_face(out, t);
+PolyData everything(const SimplicialComplex& complex) {
+  const auto all = [](std::uint8_t) { return true; };
+  return part(complex, all, all);
 }
 
 }  // namespace
 
 TypeFormats simplicial_complex_formats() {
-  return {"SimplicialComplex", {{"ply", write_ply}, {"obj", write_obj}, {"off", write_off}}};
+  using Complex = SimplicialComplex;
+  return {"SimplicialComplex",
+          {format<Complex, visible, write_ply>("ply"),
+           format<Complex, visible, write_obj>("obj"),
+           format<Complex, visible, write_off>("off"),
+           format<Complex, visible, write_stl>("stl"),
+           format<Complex, visible, write_vtp>("vtp"),
+           {"glb", write_glb},
+           format<Complex, everything, write_ma>("ma"),
+           format<Complex, visible, write_csv>("csv"),
+           format<Complex, visible, write_npy>("npy")}};
 }
 
 }  // namespace ballflow

@@ -368,7 +368,8 @@ TEST(export_any, type_of_a_foreign_plugin_has_the_generic_formats) {
   EXPECT_EQ(export_formats("Voxels"), (std::vector<std::string>{"json", "safetensors"}));
   EXPECT_EQ(default_format("Balls"), "ply");
   EXPECT_EQ(export_formats(*sealed(sample_balls())),
-            (std::vector<std::string>{"ply", "csv", "obj", "json", "safetensors"}));
+            (std::vector<std::string>{"ply", "csv", "obj", "vtp", "npy", "glb", "ma", "sph", "yaml", "urdf",
+                                      "json", "safetensors"}));
 }
 
 TEST(export_any, format_is_the_extension_in_any_case_unless_given) {
@@ -388,7 +389,9 @@ TEST(export_any, unknown_format_lists_the_known_ones) {
       FAIL() << name;
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ExitCode::usage);
-      EXPECT_NE(error.hint().find("ply, csv, obj, json, safetensors"), std::string::npos) << error.hint();
+      EXPECT_NE(error.hint().find("ply, csv, obj, vtp, npy, glb, ma, sph, yaml, urdf, json, safetensors"),
+                std::string::npos)
+          << error.hint();
     }
   }
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
@@ -447,7 +450,8 @@ TEST(CoverStates, are_json_unless_a_format_of_other_solvers_is_asked_for) {
   cover.columns = {0, 1, 1};
   cover.row_ids = cover.column_ids = {0, 1};
   EXPECT_EQ(default_format("CoverState"), "json");
-  EXPECT_EQ(export_formats("CoverState"), (std::vector<std::string>{"json", "scp", "lp", "safetensors"}));
+  EXPECT_EQ(export_formats("CoverState"),
+            (std::vector<std::string>{"json", "scp", "lp", "csv", "safetensors"}));
   EXPECT_EQ(exported(cover, "scp"), " 2 2\n 1 1\n 1\n 1\n 2\n 1 2\n");
   EXPECT_NE(exported(cover, "lp").find("s1: b0 + b1 >= 1"), std::string::npos);
 }

@@ -1,0 +1,54 @@
+// The writers of formats/. Each writes what its format has room for; the table in export.hpp says what that
+// is. Text holds the shortest decimals that give the doubles back, binary files are little-endian.
+#pragma once
+
+#include "ballflow/artifact.hpp"
+#include "export/output_file.hpp"
+#include "export/poly_data.hpp"
+
+namespace ballflow {
+
+/// PLY, binary, doubles. Points with normals (nx, ny, nz), radius and code; faces with code; edges
+/// (vertex1, vertex2).
+void write_ply(const PolyData& data, OutputFile& out);
+
+/// Wavefront OBJ: points, polygons, edges as lines.
+void write_obj(const PolyData& data, OutputFile& out);
+
+/// OFF: points and polygons.
+void write_off(const PolyData& data, OutputFile& out);
+
+/// STL, binary, floats: the polygons as triangles with normals. Throws Error (usage) when a coordinate does
+/// not fit a float.
+void write_stl(const PolyData& data, OutputFile& out);
+
+/// A point a line: x y z, then its normal where there are any. xyz has blanks between the numbers; csv has
+/// commas, a line of names first, and also radii (r) and codes.
+void write_xyz(const PolyData& data, OutputFile& out);
+void write_csv(const PolyData& data, OutputFile& out);
+
+/// NumPy: an n x 3 array of the points, n x 4 with their radii.
+void write_npy(const PolyData& data, OutputFile& out);
+
+/// VTK XML PolyData for ParaView, raw appended data: points, normals, radius and code as point data; dots,
+/// edges and polygons with their code as cell data.
+void write_vtp(const PolyData& data, OutputFile& out);
+
+/// Medial axis transform as Q-MAT, MATFP and MATTopo read it: the numbers of points, edges and triangles,
+/// then "v x y z r", "e i j", "f i j k" with indices from 0. Polygons are cut into triangles; every side
+/// of a triangle is an edge. Points without radii have 0.
+void write_ma(const PolyData& data, OutputFile& out);
+
+/// Balls as Q-MAT writes them: their number, then "x y z r" a line.
+void write_sph(const PolyData& data, OutputFile& out);
+
+/// Collision spheres of one link, named "link": in the layout of cuRobo's robot files, and as URDF.
+void write_yaml(const PolyData& data, OutputFile& out);
+void write_urdf(const PolyData& data, OutputFile& out);
+
+/// glTF 2.0 binary: the layers of the artifact that the viewer shows at first, in the same colours; floats.
+/// Up to 20 000 balls are nodes with one sphere as their mesh (translation is the centre, scale the radius);
+/// more are points with the attribute _RADIUS. Throws Error (usage) when a number does not fit a float.
+void write_glb(const Artifact& artifact, OutputFile& out);
+
+}  // namespace ballflow

@@ -1,0 +1,14 @@
+// Pieces that several text formats share.
+#pragma once
+
+#include "export/output_file.hpp"
+#include "types/vec3.hpp"
+
+namespace ballflow {
+
+/// "x y z" with `separator` between the numbers and nothing after them.
+inline void text(OutputFile& out, geometry::Vec3 p, char separator = ' ') {
+  out << p.x << separator << p.y << separator << p.z;
+}
+
+}  // namespace ballflow
