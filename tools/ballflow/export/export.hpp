@@ -1,17 +1,18 @@
 // Artifacts as files that other programs read.
 //
-//   PointSet           ply xyz csv off        vertices, normals where there are any (not in off)
-//   TriangleMesh       ply obj off stl
-//   Balls              ply csv obj            radius as a vertex property (ply) or column (csv); obj: centers
-//   PoleSet            ply csv                radius and label (0 unlabelled, 1 inner, 2 outer)
-//   CoverState         json scp lp           what is left of the matrix: OR-Library, LP format
-//   SimplicialComplex  ply obj off            triangles that are not interior, edges in no triangle (not in
-//   off) MedialAxis         ply obj off            polygons, edges that bound none (not in off), radii (ply)
-//   every type         json safetensors       type, summary and shapes; the artifact itself, byte for byte
+//   PointSet           ply xyz csv off vtp npy glb
+//   TriangleMesh       ply obj off stl vtp glb
+//   Balls              ply csv obj vtp npy glb ma sph yaml urdf
+//   PoleSet            ply csv vtp npy glb             label: 0 unlabelled, 1 inner, 2 outer
+//   SimplicialComplex  ply obj off stl vtp glb ma csv npy
+//   MedialAxis         ply obj off stl vtp glb ma csv npy
+//   CoverState         json scp lp csv                 matrix as OR-Library and LP files, choices as csv
+//   every type         json safetensors                summary and shapes; the artifact, byte for byte
 //
-// The first format of a line is the default; it is json where there is no other. ply is binary
-// little-endian with doubles, stl is binary with floats, text files hold the shortest decimals that give
-// the doubles back.
+// The first format of a line is the default; it is json where there is no other. formats.hpp says what each
+// has room for: only ply, vtp, ma, sph, csv, npy, yaml and urdf keep radii, only ply, obj, vtp, glb and ma
+// edges. A SimplicialComplex is written without interior triangles and without sides of triangles, which
+// cannot be seen, except in ma.
 #pragma once
 
 #include <string>

@@ -10,6 +10,7 @@
 
 #include "ballflow/error.hpp"
 #include "export/typed.hpp"
+#include "samples.hpp"
 #include "sealed.hpp"
 #include "test_data.hpp"
 #include "types/artifact_types.hpp"
@@ -19,7 +20,7 @@ namespace {
 
 using geometry::Array;
 using geometry::Vec3;
-using test::sealed;
+using namespace test;
 using Rows = std::vector<std::vector<double>>;
 
 template <class T>
@@ -117,66 +118,6 @@ Rows read_obj(const std::string& text, const std::string& kind) {
       rows.push_back(read_numbers(line.substr(kind.size() + 1), ' ', 0).front());
   }
   return rows;
-}
-
-const Vec3 odd{0.1, -1.0 / 3, 1e-300}, far{-12345.678901234567, 2e17, 0};
-
-geometry::PointSet sample_points(bool normals) {
-  geometry::PointSet set;
-  set.points = {odd, far, {1, 2, 3}};
-  if (normals) set.normals = {{1, 0, 0}, {0, 0, -1}, {0.6, 0.8, 0}};
-  return set;
-}
-
-geometry::TriangleMesh sample_mesh() {
-  return {{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
-}
-
-geometry::Balls sample_balls() { return {{odd, far}, {0.1, 7}, {0, 1, 1}, {5}}; }
-
-geometry::PoleSet sample_poles() {
-  geometry::PoleSet poles;
-  poles.centers = {odd, far};
-  poles.radii = {0.25, 0.3};
-  poles.labels = {2, 1};
-  poles.defining_offsets = {0, 4, 8};
-  poles.defining_samples = {0, 1, 2, 3, 1, 2, 3, 4};
-  poles.unbounded = {0, 0};
-  poles.sample_poles = {{0, -1, -1}, {1, 0, -1}, {1, -1, -1}, {0, 1, -1}, {1, -1, -1}};
-  return poles;
-}
-
-/// Tetrahedron 1 2 3 4, triangle 4 5 6, edge 6 7, vertex 9; balls 0 and 8 are hidden.
-geometry::SimplicialComplex sample_complex() {
-  geometry::SimplicialComplex c;
-  std::vector<Vec3> centers;
-  std::vector<double> weights;
-  for (int i = 0; i < 10; ++i) {
-    centers.push_back({1.0 * i, i % 3 + 0.1, i % 2 + 0.3});
-    weights.push_back(i * i);
-  }
-  c.centers = centers;
-  c.weights = weights;
-  c.vertices = {1, 2, 3, 4, 5, 6, 7, 9};
-  c.vertex_classes = {1, 1, 1, 1, 1, 1, 1, 2};
-  c.edges = {{1, 2}, {1, 3}, {1, 4}, {2, 3}, {2, 4}, {3, 4}, {4, 5}, {4, 6}, {5, 6}, {6, 7}};
-  c.edge_classes = {1, 1, 1, 1, 1, 1, 1, 1, 1, 2};
-  c.triangles = {{1, 2, 3}, {1, 2, 4}, {1, 3, 4}, {2, 3, 4}, {4, 5, 6}};
-  c.triangle_classes = {1, 1, 0, 1, 2};  // 1 3 4 plays an interior one
-  c.tetrahedra = {{1, 2, 3, 4}};
-  c.betti = {2, 0, 0};
-  return c;
-}
-
-geometry::MedialAxis sample_axis() {
-  geometry::MedialAxis axis;
-  axis.vertices = {odd, far, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {5, 5, 5}};
-  axis.radii = {1, 2, 3, 4, 5, 6.5};
-  axis.edges = {{0, 5}};
-  axis.polygon_offsets = {0, 3, 8};
-  axis.polygon_vertices = {0, 1, 2, 4, 3, 2, 1, 0};
-  axis.polygon_kinds = {0, 1};
-  return axis;
 }
 
 TEST(export_points, keep_every_bit_and_their_normals) {

@@ -1,0 +1,84 @@
+// What the command line exports of a real run, in every format that it offers.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "check_exports.hpp"
+
+namespace ballflow {
+namespace {
+
+using nlohmann::json;
+using test::ProcessResult;
+
+struct ExportTest : testing::Test {
+  test::TempFolder folder;
+
+  ProcessResult ballflow(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), test::binary_file("bin/ballflow"));
+    return test::run_process(arguments, {{"BALLFLOW_CACHE", folder.file("cache")}});
+  }
+
+  /// Type and digest of the outputs of a graph.
+  std::map<std::string, std::pair<std::string, std::string>> outputs(const std::string& graph) {
+    const std::string report = folder.file("report.json");
+    const ProcessResult result = ballflow({"run", test::source_file("graphs/" + graph + ".json"), "--set",
+                                           "input=shape:torus?n=1500", "--report", report});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    std::map<std::string, std::pair<std::string, std::string>> found;
+    const json document = json::parse(test::read_file(report));
+    for (const auto& [name, output] : document.at("outputs").items()) {
+      found[name] = {output.at("type"), output.at("digest")};
+    }
+    return found;
+  }
+
+  /// The formats of every type, from the help: "  Balls    ply, csv".
+  std::map<std::string, std::vector<std::string>> formats() {
+    std::map<std::string, std::vector<std::string>> result;
+    std::istringstream lines(ballflow({"export", "--help"}).out);
+    bool table = false;
+    for (std::string line; std::getline(lines, line);) {
+      if (line.rfind("Formats by type", 0) == 0) {
+        table = true;
+      } else if (table && line.rfind("  ", 0) == 0 && line.rfind("  any", 0) != 0) {
+        std::istringstream words(line);
+        std::string type, format;
+        words >> type;
+        while (words >> format) result[type].push_back(format.substr(0, format.find(',')));
+      }
+    }
+    return result;
+  }
+};
+
+TEST_F(ExportTest, every_type_of_a_run_is_exported_to_the_last_bit_in_every_format) {
+  if (!test::has_python()) GTEST_SKIP() << "needs python3";
+  const auto known = formats();
+  ASSERT_GE(known.size(), 7u);
+  std::map<std::string, int> written;
+  std::size_t files = 0;
+  for (const char* graph : {"dmt", "medial_axis"}) {
+    for (const auto& [name, output] : outputs(graph)) {
+      const auto& [type, digest] = output;
+      const std::vector<std::string> all =
+          known.count(type) != 0 ? known.at(type) : std::vector<std::string>{"json", "safetensors"};
+      for (const std::string& format : all) {
+        const ProcessResult result =
+            ballflow({"export", digest, folder.file(std::string(graph) + "-" + name + "." + format)});
+        EXPECT_EQ(result.exit_code, 0) << type << " " << format << ": " << result.err;
+        files += format != "safetensors" ? 1 : 0;
+      }
+      ++written[type];
+    }
+  }
+  for (const auto& [type, list] : known) EXPECT_GT(written[type], 0) << type << " was not tried";
+  const ProcessResult check = test::check_exports(folder);
+  EXPECT_EQ(check.exit_code, 0) << check.out << check.err;
+  EXPECT_EQ(test::count(check.out, "equal "), files) << check.out;
+}
+
+}  // namespace
+}  // namespace ballflow

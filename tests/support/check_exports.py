@@ -1,0 +1,494 @@
+"""Reads exported files by their specifications and compares them with the artifacts they were made from.
+
+check_exports.py FOLDER: for every NAME.safetensors in the folder, every other NAME.FORMAT must hold the same
+numbers, to the last bit where the format has doubles and to the nearest float where it has floats. Prints one
+line per file that was compared; exit code 1 when one differs. Uses nothing but the standard library, and none
+of the code that wrote the files.
+"""
+
+import json
+import math
+import pathlib
+import re
+import struct
+import sys
+import xml.etree.ElementTree as ElementTree
+
+SINGULAR = 2  # class of a simplex
+INTERIOR = 0
+MOST_BALL_NODES = 20000
+
+
+def require(condition, what):
+    if not condition:
+        raise AssertionError(what)
+
+
+def same(found, expected, what):
+    if found != expected:
+        raise AssertionError(f"{what}: {str(found)[:200]} instead of {str(expected)[:200]}")
+
+
+def float32(value):
+    return struct.unpack("<f", struct.pack("<f", value))[0]
+
+
+def float32_row(row):
+    return tuple(float32(value) for value in row)
+
+
+def rows(values, width):
+    return [tuple(values[i:i + width]) for i in range(0, len(values), width)]
+
+
+def floats(text):
+    return tuple(float(word) for word in text.split())
+
+
+# ---- the artifact
+
+
+class Artifact:
+    """What the formats should hold, from the arrays of the safetensors file."""
+
+    CODES = {"f64": ("d", 8), "i64": ("q", 8), "i32": ("i", 4), "u8": ("B", 1)}
+
+    def __init__(self, path):
+        data = path.read_bytes()
+        size, = struct.unpack_from("<Q", data)
+        header = json.loads(data[8:8 + size])
+        meta = header.pop("__metadata__")
+        self.type = meta["type"]
+        arrays = {}
+        for name, entry in header.items():
+            code, width = self.CODES[entry["dtype"].lower()]
+            begin, end = entry["data_offsets"]
+            values = struct.unpack_from(f"<{(end - begin) // width}{code}", data, 8 + size + begin)
+            shape = entry["shape"]
+            arrays[name] = rows(values, shape[1]) if len(shape) == 2 else list(values)
+        self.arrays = arrays
+        self.normals = self.radii = self.point_codes = self.face_codes = None
+        self.points, self.edges, self.faces = [], [], []
+        getattr(self, "read_" + self.type)(arrays)
+        # What ma holds.
+        self.all_edges, self.all_triangles = self.edges, fans(self.faces)
+        if self.type == "SimplicialComplex":
+            number = {ball: i for i, ball in enumerate(arrays["vertices"])}
+            self.all_edges = [tuple(number[v] for v in edge) for edge in arrays["edges"]]
+            self.all_triangles = [tuple(number[v] for v in t) for t in arrays["triangles"]]
+        used = {v for element in self.edges + self.faces for v in element}
+        self.dots = [v for v in range(len(self.points)) if v not in used]
+        if self.type == "TriangleMesh":
+            self.dots = []
+        if self.type == "SimplicialComplex":
+            self.dots = [i for i, c in enumerate(arrays["vertex_classes"]) if c == SINGULAR]
+
+    def read_PointSet(self, a):
+        self.points = a["points"]
+        self.normals = a.get("normals") or None
+
+    def read_TriangleMesh(self, a):
+        self.points, self.faces = a["vertices"], a["triangles"]
+
+    def read_Balls(self, a):
+        self.points, self.radii = a["centers"], a["radii"]
+
+    def read_PoleSet(self, a):
+        self.points, self.radii = a["centers"], a["radii"]
+        self.point_codes = ("label", a["labels"])
+
+    def read_SimplicialComplex(self, a):
+        number = {ball: i for i, ball in enumerate(a["vertices"])}
+        self.points = [a["centers"][ball] for ball in a["vertices"]]
+        self.radii = [math.sqrt(a["weights"][ball]) for ball in a["vertices"]]
+        self.edges = [tuple(number[v] for v in edge)
+                      for edge, c in zip(a["edges"], a["edge_classes"]) if c == SINGULAR]
+        seen = [(t, c) for t, c in zip(a["triangles"], a["triangle_classes"]) if c != INTERIOR]
+        self.faces = [tuple(number[v] for v in t) for t, _ in seen]
+        self.face_codes = ("class", [c for _, c in seen], SINGULAR)
+
+    def read_MedialAxis(self, a):
+        self.points, self.radii, self.edges = a["vertices"], a["radii"], a["edges"]
+        ends = a["polygon_offsets"]
+        self.faces = [tuple(a["polygon_vertices"][ends[i]:ends[i + 1]]) for i in range(len(ends) - 1)]
+        self.face_codes = ("kind", a["polygon_kinds"], 0)
+
+    def read_CoverState(self, a):
+        pass
+
+    read_CoverCheck = read_Comparison = read_CoverState
+
+    def balls(self):
+        return [(*p, r) for p, r in zip(self.points, self.radii)]
+
+    def table(self):
+        """Names and rows of the point data."""
+        names, columns = ["x", "y", "z"], [list(c) for c in zip(*self.points)] or [[], [], []]
+        if self.normals:
+            names += ["nx", "ny", "nz"]
+            columns += [list(c) for c in zip(*self.normals)]
+        if self.radii is not None:
+            names.append("radius")
+            columns.append(self.radii)
+        if self.point_codes:
+            names.append(self.point_codes[0])
+            columns.append(self.point_codes[1])
+        return names, [tuple(row) for row in zip(*columns)]
+
+
+def fans(faces):
+    return [(f[0], f[k - 1], f[k]) for f in faces for k in range(2, len(f))]
+
+
+# ---- the formats
+
+
+def check_ply(data, artifact):
+    head, _, body = data.partition(b"end_header\n")
+    lines = head.decode("ascii").splitlines()
+    same(lines[:2], ["ply", "format binary_little_endian 1.0"], "first lines")
+    kinds = {"double": "d", "int": "i", "uchar": "B"}
+    elements, at = [], 0
+    for words in (line.split() for line in lines[2:]):
+        if words[0] == "element":
+            elements.append((words[1], int(words[2]), []))
+        elif words[0] == "property":
+            elements[-1][2].append(words[1:])
+    found = {}
+    for name, count, properties in elements:
+        table = found[name] = ([p[-1] for p in properties], [])
+        for _ in range(count):
+            row = []
+            for p in properties:
+                if p[0] == "list":
+                    n, = struct.unpack_from("<" + kinds[p[1]], body, at)
+                    at += struct.calcsize(kinds[p[1]])
+                    row.append(struct.unpack_from(f"<{n}{kinds[p[2]]}", body, at))
+                    at += n * struct.calcsize(kinds[p[2]])
+                else:
+                    row += struct.unpack_from("<" + kinds[p[0]], body, at)
+                    at += struct.calcsize(kinds[p[0]])
+            table[1].append(tuple(row))
+    same(at, len(body), "bytes after the header")
+    same(found["vertex"], artifact.table(), "vertices")
+    faces = [(tuple(f),) for f in artifact.faces]
+    names = ["vertex_indices"]
+    if artifact.face_codes:
+        names.append(artifact.face_codes[0])
+        faces = [(*f, c) for f, c in zip(faces, artifact.face_codes[1])]
+    if faces:
+        same(found["face"], (names, faces), "faces")
+    if artifact.edges:
+        same(found["edge"], (["vertex1", "vertex2"], artifact.edges), "edges")
+    same(set(found), {"vertex"} | ({"face"} if faces else set()) | ({"edge"} if artifact.edges else set()),
+         "elements")
+
+
+def check_obj(data, artifact):
+    elements = {"v": [], "f": [], "l": []}
+    for line in data.decode("ascii").splitlines():
+        if not line.startswith("#"):
+            elements[line[0]].append(floats(line[1:]))
+    same(elements["v"], artifact.points, "vertices")
+    for kind, expected in (("f", artifact.faces), ("l", artifact.edges)):
+        same([tuple(int(v) - 1 for v in e) for e in elements[kind]], expected, kind)
+
+
+def check_off(data, artifact):
+    lines = data.decode("ascii").splitlines()
+    n, m = len(artifact.points), len(artifact.faces)
+    same(lines[:2], ["OFF", f"{n} {m} 0"], "header")
+    same([floats(line) for line in lines[2:2 + n]], artifact.points, "points")
+    same([tuple(map(int, line.split())) for line in lines[2 + n:]], [(len(f), *f) for f in artifact.faces], "faces")
+
+
+def check_stl(data, artifact):
+    triangles = fans(artifact.faces)
+    require(not data.startswith(b"solid"), "looks like an ASCII file")
+    same(len(data), 84 + 50 * len(triangles), "bytes")
+    same(struct.unpack_from("<I", data, 80)[0], len(triangles), "count")
+    for i, triangle in enumerate(triangles):
+        values = struct.unpack_from("<12fH", data, 84 + 50 * i)
+        same(rows(values[3:12], 3), [float32_row(artifact.points[v]) for v in triangle], f"triangle {i}")
+
+
+def check_csv(data, artifact):
+    lines = data.decode("ascii").splitlines()
+    if artifact.type == "CoverState":
+        names = ["ball", "how"]
+        expected = list(zip(artifact.arrays["chosen"], artifact.arrays["chosen_how"]))
+    else:
+        names, expected = artifact.table()
+        names = ["r" if name == "radius" else name for name in names]
+    same(lines[0].split(","), names, "names")
+    same([tuple(map(float, line.split(","))) for line in lines[1:]], expected, "rows")
+
+
+def check_xyz(data, artifact):
+    same([floats(line) for line in data.decode("ascii").splitlines()], artifact.table()[1], "rows")
+
+
+def check_npy(data, artifact):
+    same(data[:8], b"\x93NUMPY\x01\x00", "magic number")
+    size, = struct.unpack_from("<H", data, 8)
+    header = data[10:10 + size].decode("ascii")
+    require((10 + size) % 64 == 0 and header.endswith("\n"), "the header is not aligned")
+    found = re.fullmatch(r"\{'descr': '<f8', 'fortran_order': False, 'shape': \((\d+), (\d)\), \} *\n", header)
+    require(found, header)
+    expected = artifact.balls() if artifact.radii is not None else artifact.points
+    width = 4 if artifact.radii is not None else 3
+    same((int(found[1]), int(found[2])), (len(expected), width), "shape")
+    values = struct.unpack(f"<{len(expected) * width}d", data[10 + size:])
+    same(rows(values, width), expected, "values")
+
+
+def check_vtp(data, artifact):
+    head, found, tail = data.partition(b'<AppendedData encoding="raw">\n_')
+    require(found, "no appended data")
+    require(tail.endswith(b"\n</AppendedData>\n</VTKFile>\n"), "the end of the file")
+    blocks = tail[:-len(b"\n</AppendedData>\n</VTKFile>\n")]
+    root = ElementTree.fromstring(head + b"</VTKFile>")
+    same(root.attrib, {"type": "PolyData", "version": "1.0", "byte_order": "LittleEndian", "header_type": "UInt64"},
+         "VTKFile")
+    piece = root.find("PolyData/Piece")
+    kinds = {"Float64": "d", "Int64": "q", "UInt8": "B"}
+    next_offset = 0
+    arrays = {}
+    for section in piece:
+        for array in section:
+            same(int(array.get("offset")), next_offset, f"offset of {array.get('Name')}")
+            size, = struct.unpack_from("<Q", blocks, next_offset)
+            kind, width = kinds[array.get("type")], int(array.get("NumberOfComponents"))
+            values = struct.unpack_from(f"<{size // struct.calcsize(kind)}{kind}", blocks, next_offset + 8)
+            arrays[section.tag, array.get("Name")] = rows(values, width) if width > 1 else list(values)
+            next_offset += 8 + size
+    same(next_offset, len(blocks), "bytes of the blocks")
+
+    expected = {("Points", "Points"): artifact.points}
+    if artifact.normals:
+        expected["PointData", "Normals"] = artifact.normals
+    if artifact.radii is not None:
+        expected["PointData", "radius"] = artifact.radii
+    if artifact.point_codes:
+        expected["PointData", artifact.point_codes[0]] = artifact.point_codes[1]
+    if artifact.face_codes:
+        name, codes, of_others = artifact.face_codes
+        expected["CellData", name] = [of_others] * (len(artifact.dots) + len(artifact.edges)) + codes
+    counts = {"Strips": 0, "Points": len(artifact.points)}
+    cells = {"Verts": [(v,) for v in artifact.dots], "Lines": artifact.edges, "Polys": artifact.faces}
+    for section, elements in cells.items():
+        counts[section] = len(elements)
+        expected[section, "connectivity"] = [v for element in elements for v in element]
+        expected[section, "offsets"] = [sum(map(len, elements[:1])) * (i + 1) for i in range(len(elements))]
+        if section == "Polys":
+            end, ends = 0, []
+            for element in elements:
+                end += len(element)
+                ends.append(end)
+            expected[section, "offsets"] = ends
+    same({k[len("NumberOf"):]: int(v) for k, v in piece.attrib.items()}, counts, "Piece")
+    same(arrays, expected, "arrays")
+
+
+def check_ma(data, artifact):
+    lines = data.decode("ascii").splitlines()
+    sides = {tuple(sorted(pair)) for a, b, c in artifact.all_triangles for pair in ((a, b), (b, c), (c, a))}
+    edges = sorted(sides | {tuple(sorted(edge)) for edge in artifact.all_edges})
+    triangles = artifact.all_triangles
+    n, m = len(artifact.points), len(edges)
+    same(lines[0], f"{n} {m} {len(triangles)}", "header")
+    kinds = "".join(line[:2] for line in lines[1:])
+    same(kinds, "v " * n + "e " * m + "f " * len(triangles), "kinds of lines")
+    same([floats(line[2:]) for line in lines[1:1 + n]], artifact.balls(), "v")
+    same([tuple(map(int, line[2:].split())) for line in lines[1 + n:1 + n + m]], edges, "e")
+    same([tuple(map(int, line[2:].split())) for line in lines[1 + n + m:]], triangles, "f")
+
+
+def check_sph(data, artifact):
+    lines = data.decode("ascii").splitlines()
+    same(lines[0], str(len(artifact.points)), "number")
+    same([floats(line) for line in lines[1:]], artifact.balls(), "balls")
+
+
+def check_yaml(data, artifact):
+    text = data.decode("ascii")
+    if not artifact.points:
+        return same(text, "collision_spheres:\n  link: []\n", "text")
+    entry = r"    - center: \[(\S+), (\S+), (\S+)\]\n      radius: (\S+)\n"
+    require(re.fullmatch(r"collision_spheres:\n  link:\n(" + entry + ")*", text), "the layout")
+    same([tuple(map(float, found)) for found in re.findall(entry, text)], artifact.balls(), "spheres")
+
+
+def check_urdf(data, artifact):
+    link = ElementTree.fromstring(data).find("link")
+    found = [(*floats(c.find("origin").get("xyz")), float(c.find("geometry/sphere").get("radius"))) for c in link]
+    same(found, artifact.balls(), "spheres")
+
+
+class Glb:
+    """A glTF file, its structure checked as strictly as the specification asks."""
+
+    WIDTHS = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}
+    KINDS = {5123: "H", 5125: "I", 5126: "f"}
+
+    def __init__(self, data):
+        magic, version, size = struct.unpack_from("<4sII", data)
+        same((magic, version, size), (b"glTF", 2, len(data)), "header")
+        chunks, at = [], 12
+        while at < len(data):
+            length, kind = struct.unpack_from("<I4s", data, at)
+            require(length % 4 == 0 and at + 8 + length <= len(data), "length of a chunk")
+            chunks.append((kind, data[at + 8:at + 8 + length]))
+            at += 8 + length
+        kinds = [kind for kind, _ in chunks]
+        require(kinds in ([b"JSON"], [b"JSON", b"BIN\0"]), f"chunks {kinds}")
+        self.gltf = json.loads(chunks[0][1])
+        same(self.gltf["asset"]["version"], "2.0", "version")
+        for name, value in self.gltf.items():
+            require(value != [], f"{name} is empty")
+        binary = chunks[1][1] if len(chunks) == 2 else b""
+        if binary:
+            length = self.gltf["buffers"][0]["byteLength"]
+            require(length <= len(binary) <= length + 3, "length of the buffer")
+        self.accessors = [self.accessor(entry, binary) for entry in self.gltf.get("accessors", [])]
+        for mesh in self.gltf.get("meshes", []):
+            for primitive in mesh["primitives"]:
+                self.check_primitive(primitive)
+
+    def accessor(self, entry, binary):
+        view = self.gltf["bufferViews"][entry["bufferView"]]
+        kind, width = self.KINDS[entry["componentType"]], self.WIDTHS[entry["type"]]
+        count = entry["count"] * width
+        require(entry["count"] > 0, "an accessor without elements")
+        require(view["byteOffset"] % struct.calcsize(kind) == 0, "alignment")
+        same(view["byteLength"], count * struct.calcsize(kind), "length of a view")
+        require(view["byteOffset"] + view["byteLength"] <= len(binary), "a view beyond the buffer")
+        values = struct.unpack_from(f"<{count}{kind}", binary, view["byteOffset"])
+        require(all(map(math.isfinite, values)), "a number that is not finite")
+        values = rows(values, width) if width > 1 else list(values)
+        if "min" in entry:
+            same(entry["min"], [min(c) for c in zip(*values)], "min")
+            same(entry["max"], [max(c) for c in zip(*values)], "max")
+        return values
+
+    def check_primitive(self, primitive):
+        attributes = {name: self.accessors[i] for name, i in primitive["attributes"].items()}
+        n = len(attributes["POSITION"])
+        require("min" in self.gltf["accessors"][primitive["attributes"]["POSITION"]], "POSITION without bounds")
+        for name, values in attributes.items():
+            same(len(values), n, name)
+            require(name in ("POSITION", "NORMAL", "COLOR_0") or re.fullmatch("_[A-Z0-9_]+", name), name)
+        for normal in attributes.get("NORMAL", []):
+            require(abs(math.dist(normal, (0, 0, 0)) - 1) < 1e-6, "a normal that is not of length 1")
+        if "COLOR_0" in attributes:
+            require(self.gltf["accessors"][primitive["attributes"]["COLOR_0"]]["normalized"], "colours")
+        if "indices" in primitive:
+            indices = self.accessors[primitive["indices"]]
+            require(max(indices) < n, "an index beyond the vertices")
+            same(len(indices) % {1: 2, 4: 3}[primitive.get("mode", 4)], 0, "indices")
+        require(primitive["material"] < len(self.gltf["materials"]), "material")
+
+    def roots(self):
+        nodes = self.gltf.get("nodes", [])
+        for i in self.gltf["scenes"][self.gltf["scene"]].get("nodes", []):
+            yield nodes[i], [nodes[k] for k in nodes[i].get("children", [])]
+
+    def primitive(self, node):
+        primitives = self.gltf["meshes"][node["mesh"]]["primitives"]
+        same(len(primitives), 1, "primitives")
+        p = primitives[0]
+        attributes = {name: self.accessors[i] for name, i in p["attributes"].items()}
+        width = {0: 1, 1: 2, 4: 3}[p.get("mode", 4)]
+        indices = rows(self.accessors[p["indices"]], width) if "indices" in p else None
+        return attributes, indices, width
+
+
+def check_sphere(attributes, triangles):
+    positions = attributes["POSITION"]
+    same(len(positions) - 3 * len(triangles) // 2 + len(triangles), 2, "Euler characteristic of the sphere")
+    for p in positions:
+        require(abs(math.dist(p, (0, 0, 0)) - 1) < 1e-6, "a vertex that is not on the sphere")
+    for a, b, c in triangles:
+        a, b, c = positions[a], positions[b], positions[c]
+        u, v = [y - x for x, y in zip(a, b)], [y - x for x, y in zip(a, c)]
+        normal = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
+        require(sum(x * y for x, y in zip(normal, a)) > 0, "a triangle that looks inward")
+
+
+def check_glb(data, artifact):
+    glb = Glb(data)
+    points = {float32_row(p) for p in artifact.points}
+    found = {1: set(), 2: set(), 3: set()}
+    count = {1: 0, 2: 0, 3: 0}
+    balls = []
+    for root, children in glb.roots():
+        for child in children:
+            attributes, triangles, _ = glb.primitive(child)
+            if not balls:
+                check_sphere(attributes, triangles)
+            same(len(set(child["scale"])), 1, "scale")
+            balls.append((*child["translation"], child["scale"][0]))
+        if children:
+            continue
+        attributes, elements, width = glb.primitive(root)
+        positions = attributes["POSITION"]
+        require(set(positions) <= points, "a position that is no point of the artifact")
+        elements = elements if elements is not None else [(i,) for i in range(len(positions))]
+        count[width] += len(elements)
+        found[width] |= {tuple(positions[v] for v in element) for element in elements}
+        if "_RADIUS" in attributes:
+            radius = {}
+            for p, r in artifact.table()[1] and zip(artifact.points, artifact.radii):
+                radius.setdefault(float32_row(p), set()).add(float32(r))
+            for p, r in zip(positions, attributes["_RADIUS"]):
+                require(r in radius[p], "a radius")
+
+    def placed(elements):
+        return {tuple(float32_row(artifact.points[v]) for v in element) for element in elements}
+
+    dots = artifact.dots
+    if artifact.type == "PoleSet":  # the outer ones, often far away, are hidden
+        dots = [i for i in dots if artifact.point_codes[1][i] != 2]
+    if artifact.type == "Balls" and len(artifact.points) <= MOST_BALL_NODES:
+        same(balls, artifact.balls(), "balls")
+        dots = []
+    triangles = fans(artifact.faces)
+    for width, expected in ((1, [(v,) for v in dots]), (2, artifact.edges), (3, triangles)):
+        same(count[width], len(expected), f"number of elements of {width} points")
+        same(found[width], placed(expected), f"elements of {width} points")
+
+
+def check_json(data, artifact):
+    same(json.loads(data)["type"], artifact.type, "type")
+
+
+def check_scp(data, artifact):
+    numbers = list(map(int, data.split()))
+    columns, sets = numbers[:2]
+    same((sets, columns), (len(artifact.arrays["row_ids"]), len(artifact.arrays["column_ids"])), "size")
+
+
+def check_lp(data, artifact):
+    constraints = re.findall(rb"^ *s\d+: ", data, re.MULTILINE)
+    same(len(constraints), len(artifact.arrays["column_ids"]), "constraints")
+
+
+def main(folder):
+    failed = False
+    for source in sorted(pathlib.Path(folder).glob("*.safetensors")):
+        artifact = Artifact(source)
+        for path in sorted(source.parent.glob(source.stem + ".*")):
+            if path == source:
+                continue
+            kind = path.suffix[1:]
+            try:
+                globals()["check_" + kind](path.read_bytes(), artifact)
+                print("equal", artifact.type, kind)
+            except Exception as error:  # every way of being wrong is a difference
+                failed = True
+                print("DIFFERENT", path.name, artifact.type, kind, type(error).__name__, error)
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1]))
