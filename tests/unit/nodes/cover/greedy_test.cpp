@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cover/reduce.hpp"
+#include "cover/residual.hpp"
 #include "cover_oracle.hpp"
 
 namespace ballflow::geometry {
@@ -98,6 +99,50 @@ TEST(greedy, bounds_hold_after_any_mixture_of_greedy_picks_and_reductions) {
     tight += now.lower_bound == best ? 1 : 0;
   }
   EXPECT_GT(tight, 200);
+}
+
+TEST(greedy, bounds_hold_after_choices_of_which_nothing_is_claimed) {
+  std::mt19937 random(16);
+  int tight = 0, larger = 0;
+  for (int round = 0; round < 5000; ++round) {
+    const std::size_t rows = 4 + random() % 8, columns = 4 + random() % 12;
+    const CoverState state = state_of(test::random_sets(random, rows, columns, 0.25), columns);
+    const std::int64_t best = test::optimum(state);
+    CoverState now = state;
+    while (now.remaining() > 0) {
+      switch (random() % 4) {
+        case 0:
+          now = reduce(now);
+          break;
+        case 1:
+          now = greedy(now, per_component);
+          break;
+        case 2:
+          now = greedy(now);
+          break;
+        default: {
+          std::vector<std::int32_t> some;
+          for (std::size_t i = 0; i < now.rows(); ++i) {
+            if (random() % 4 == 0) some.push_back(static_cast<std::int32_t>(i));
+          }
+          std::shuffle(some.begin(), some.end(), random);
+          constexpr Choice claims_nothing[]{Choice::trusted, Choice::searched, Choice::all, Choice::greedy};
+          now = choose(now, some, claims_nothing[random() % 4]);
+          raise_lower_bound(now);
+        }
+      }
+      ASSERT_EQ(broken_invariant(now), "");
+      ASSERT_LE(now.lower_bound, best);
+    }
+    ASSERT_TRUE(test::covers(state, now));
+    const auto size = static_cast<std::int64_t>(now.chosen.size());
+    ASSERT_EQ(now.upper_bound(), size);
+    ASSERT_GE(size, best);
+    tight += now.lower_bound == best ? 1 : 0;
+    larger += size > best ? 1 : 0;
+  }
+  EXPECT_GT(tight, 500);
+  EXPECT_GT(larger, 500);
 }
 
 TEST(greedy, proves_one_ball_for_every_component) {
