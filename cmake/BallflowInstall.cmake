@@ -5,11 +5,12 @@
 #   include/ballflow/*                    the boundary, the SDK and the engine
 #   include/ballflow/geometry/<family>/   options structs, functions and data types of the algorithms
 #   <libdir>/libballflow_*.a, <libdir>/cmake/ballflow/
-#   share/ballflow/graphs, share/ballflow/schemas
+#   share/ballflow/graphs, share/ballflow/schemas, share/ballflow/viewer.html (where npm is)
 include(CMakePackageConfigHelpers)
 
 get_property(geometry_targets GLOBAL PROPERTY BALLFLOW_GEOMETRY_TARGETS)
 get_property(plugin_targets GLOBAL PROPERTY BALLFLOW_PLUGIN_TARGETS)
+get_property(viewer_target GLOBAL PROPERTY BALLFLOW_VIEWER_TARGET)
 set(programs)
 foreach(program ballflow ballflow-render)
   if(TARGET ${program})
@@ -18,7 +19,7 @@ foreach(program ballflow ballflow-render)
 endforeach()
 
 # What users run, without the tests.
-add_custom_target(ballflow_programs DEPENDS ${programs} ${plugin_targets})
+add_custom_target(ballflow_programs DEPENDS ${programs} ${plugin_targets} ${viewer_target})
 
 install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS ${plugin_targets} LIBRARY DESTINATION lib/ballflow)

@@ -71,6 +71,7 @@ void add_cache(CLI::App& app, Common& common, Action& action);
 void add_report(CLI::App& app, Common& common, Action& action);
 void add_export(CLI::App& app, Common& common, Action& action);
 void add_graph(CLI::App& app, Common& common, Action& action);
+void add_view(CLI::App& app, Common& common, Action& action);
 void add_plugins(CLI::App& app, Common& common, Action& action);
 void add_new_node(CLI::App& app, Common& common, Action& action);
 void add_explain(CLI::App& app, Common& common, Action& action);
@@ -80,6 +81,10 @@ void add_version(CLI::App& app, Common& common, Action& action);
 /// "NAME=VALUE" of an option that is repeated; throws Error that shows how it is written.
 std::pair<std::string, std::string> split_setting(const std::string& option, const std::string& text,
                                                   const std::string& example);
+
+/// The artifact of a digest, null when the cache does not have it. Throws Error (code store) when its file is
+/// damaged.
+ArtifactPtr cached_artifact(const Store& store, const Digest& digest);
 
 /// A file, or the beginning of the digest of an artifact in the cache. Throws Error when it is neither.
 ArtifactPtr find_artifact(const Common& common, const std::string& name);

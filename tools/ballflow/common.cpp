@@ -10,6 +10,8 @@
 
 namespace ballflow::cli {
 
+namespace fs = std::filesystem;
+
 std::shared_ptr<Store> Common::store() const {
   StoreOptions options;
   if (!no_cache) options.root = cache.empty() ? Store::default_root() : cache;
@@ -44,8 +46,18 @@ const std::atomic<bool>& cancel_on_signals() {
   return cancel_requested;
 }
 
+ArtifactPtr cached_artifact(const Store& store, const Digest& digest) {
+  const std::string hex = digest.hex();
+  const std::string path = (fs::path(store.root()) / "cas" / hex.substr(0, 2) / hex.substr(2)).string();
+  std::error_code ignored;
+  if (store.root().empty() || !fs::is_regular_file(path, ignored)) return nullptr;
+  ArtifactPtr artifact = Artifact::map(path);
+  if (artifact->digest() == digest) return artifact;
+  throw Error(ExitCode::store, path + " is damaged: its content has another digest than its name",
+              "delete it; the next run that needs it makes it again");
+}
+
 ArtifactPtr find_artifact(const Common& common, const std::string& name) {
-  namespace fs = std::filesystem;
   std::error_code ignored;
   if (fs::is_regular_file(name, ignored)) return Artifact::map(name);
   const bool hexadecimal = name.find_first_not_of("0123456789abcdef") == std::string::npos;
@@ -57,12 +69,7 @@ ArtifactPtr find_artifact(const Common& common, const std::string& name) {
     }
     const std::vector<Digest> found = find_artifacts(*store, name);
     if (found.size() == 1) {
-      const std::string hex = found.front().hex();
-      const std::string path = (fs::path(store->root()) / "cas" / hex.substr(0, 2) / hex.substr(2)).string();
-      const ArtifactPtr artifact = Artifact::map(path);
-      if (artifact->digest() == found.front()) return artifact;
-      throw Error(ExitCode::store, path + " is damaged: its content has another digest than its name",
-                  "delete it; the next run that needs it makes it again");
+      if (ArtifactPtr artifact = cached_artifact(*store, found.front())) return artifact;
     }
     if (found.size() > 1) {
       throw Error(ExitCode::usage, "\"" + name + "\" is the beginning of several digests",

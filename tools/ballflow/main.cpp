@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
   cli::add_report(app, common, action);
   cli::add_export(app, common, action);
   cli::add_graph(app, common, action);
+  cli::add_view(app, common, action);
   cli::add_plugins(app, common, action);
   cli::add_new_node(app, common, action);
   cli::add_explain(app, common, action);

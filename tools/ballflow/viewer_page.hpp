@@ -1,0 +1,11 @@
+// The template of pages, which the build makes of tools/viewer where npm is.
+#pragma once
+
+#include <string>
+
+namespace ballflow::cli {
+
+/// Throws Error (code store) that says how to get it when it was not built.
+std::string viewer_template();
+
+}  // namespace ballflow::cli
