@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -16,30 +15,39 @@
 namespace ballflow::geometry {
 namespace {
 
-/// What the prices of the certificate prove about each component: prices that are feasible on the whole
-/// instance are so on a part of it.
-std::vector<std::int64_t> component_bounds(const CoverState& state, const Parts& parts) {
-  std::vector<std::int64_t> price(static_cast<std::size_t>(state.samples));
+constexpr double core_work = 1e9;  // matrix entries that the search in the core visits, times the gap
+
+/// The prices of the columns in the certificate. They are feasible on the whole instance, so on a part of it.
+std::vector<std::int64_t> prices_of_columns(const CoverState& state) {
+  std::vector<std::int64_t> of_sample(static_cast<std::size_t>(state.samples));
   for (std::size_t i = 0; i < state.certificate_samples.size(); ++i) {
-    price[static_cast<std::size_t>(state.certificate_samples[i])] = state.certificate_prices[i];
+    of_sample[static_cast<std::size_t>(state.certificate_samples[i])] = state.certificate_prices[i];
   }
-  std::vector<std::int64_t> bounds(parts.count());
-  for (std::size_t k = 0; k < parts.count(); ++k) {
-    std::int64_t sum = 0;
-    for (const std::int32_t c : parts.columns(k)) {
-      sum += price[static_cast<std::size_t>(state.column_ids[static_cast<std::size_t>(c)])];
-    }
-    bounds[k] = std::max<std::int64_t>(1, (sum + price_unit - 1) / price_unit);
+  std::vector<std::int64_t> prices;
+  prices.reserve(state.cols());
+  for (const std::int32_t sample : state.column_ids) {
+    prices.push_back(of_sample[static_cast<std::size_t>(sample)]);
   }
-  return bounds;
+  return prices;
+}
+
+/// Matrix entries that a step visits: those of a row and of a column, on average.
+double visited(std::size_t entries, std::size_t rows, std::size_t columns) {
+  const auto n = static_cast<double>(entries);
+  return std::max(1.0, n / static_cast<double>(std::max<std::size_t>(rows, 1)) +
+                           n / static_cast<double>(std::max<std::size_t>(columns, 1)));
 }
 
 /// The covers of all components while they are being improved.
 class Searches {
  public:
   Searches(const CoverState& state, const LocalSearchOptions& options, Monitor& monitor)
-      : state_(state), parts_(state, monitor), rows_(parts_.count()), searches_(parts_.count()) {
-    const std::vector<std::int64_t> bounds = component_bounds(state, parts_);
+      : state_(state),
+        parts_(state, monitor),
+        prices_(prices_of_columns(state)),
+        seed_(static_cast<std::uint64_t>(options.seed)),
+        rows_(parts_.count()),
+        searches_(parts_.count()) {
     tbb::parallel_for(std::size_t{0}, parts_.count(), [&](std::size_t k) {
       if (const std::int32_t whole = parts_.whole_row(k); whole >= 0) {
         rows_[k] = {whole};
@@ -50,33 +58,77 @@ class Searches {
       const auto cover =
           without_redundant(part.rows, columns, greedy_rows(part.rows, columns, monitor), monitor);
       for (const std::int32_t i : cover) rows_[k].push_back(part.row_ids[static_cast<std::size_t>(i)]);
-      if (static_cast<std::int64_t>(cover.size()) <= bounds[k]) return;
-      searches_[k] = std::make_unique<WeightingSearch>(std::move(part), cover, bounds[k],
-                                                       static_cast<std::uint64_t>(options.seed) + k, monitor);
+      const std::int64_t bound = bound_of(k);
+      if (static_cast<std::int64_t>(cover.size()) <= bound) return;
+      searches_[k].search =
+          std::make_unique<WeightingSearch>(std::move(part), cover, bound, seed_ + k, monitor);
     });
   }
 
-  /// Rows of the components that are still searched, and their number.
-  std::int64_t searched_rows() const {
-    std::int64_t rows = 0;
-    for (const auto& search : searches_) {
-      if (search) rows += static_cast<std::int64_t>(search->part().row_ids.size());
-    }
+  bool finished() const {
+    return std::none_of(searches_.begin(), searches_.end(),
+                        [](const auto& s) { return s.search != nullptr; });
+  }
+
+  /// Rows of the components that are still searched.
+  double searched_rows() const {
+    double rows = 0;
+    for (const auto& s : searches_) rows += s.search ? static_cast<double>(s.search->part().rows.size()) : 0;
     return rows;
   }
 
-  /// Goes on with every search that is not finished; rows get `steps_per_row` steps each.
-  void run(double steps_per_row, Monitor& monitor) {
+  /// (balls - bound) / bound of the components that are still searched.
+  double searched_gap() const {
+    std::int64_t balls = 0, bound = 0;
+    for (std::size_t k = 0; k < searches_.size(); ++k) {
+      if (!searches_[k].search) continue;
+      balls += static_cast<std::int64_t>(rows_[k].size());
+      bound += bound_of(k);
+    }
+    return static_cast<double>(balls - bound) / static_cast<double>(std::max<std::int64_t>(bound, 1));
+  }
+
+  /// Components share `steps` in proportion to their rows.
+  void plan(double steps) {
+    const double rows = searched_rows();
+    for (auto& s : searches_) {
+      if (s.search) s.steps = steps * static_cast<double>(s.search->part().rows.size()) / rows;
+    }
+  }
+
+  /// Starts again from the best cover of each component, with its core alone. Large covers, and components
+  /// about which the certificate says nothing, are searched no more.
+  void narrow(double steps_per_row, double work, double max_steps, Monitor& monitor) {
     tbb::parallel_for(std::size_t{0}, searches_.size(), [&](std::size_t k) {
-      if (!searches_[k]) return;
-      WeightingSearch& search = *searches_[k];
-      const auto& ids = search.part().row_ids;
-      search.run(static_cast<std::int64_t>(steps_per_row * static_cast<double>(ids.size())) + 1, monitor);
-      if (search.best().size() < rows_[k].size()) {
-        rows_[k].clear();
-        for (const std::int32_t i : search.best()) rows_[k].push_back(ids[static_cast<std::size_t>(i)]);
+      auto& [search, steps] = searches_[k];
+      if (!search) return;
+      if (rows_[k].size() > most_balls_of_core || price_of(k) == 0) {
+        search.reset();
+        return;
       }
-      if (search.proven()) searches_[k].reset();
+      std::vector<std::int32_t> cover;
+      Part part = core(k, search->part(), search->best(), cover, monitor);
+      steps = std::min({steps_per_row * static_cast<double>(search->part().rows.size()), max_steps,
+                        work / visited(part.rows.entries.size(), part.rows.size(), part.columns.size())});
+      const std::int64_t forget = mean_weight_of_core * static_cast<std::int64_t>(part.columns.size());
+      search = std::make_unique<WeightingSearch>(std::move(part), cover, bound_of(k), seed_ + k, monitor,
+                                                 std::min(forget, WeightingSearch::most_weight));
+    });
+  }
+
+  /// Makes the fraction `share` of the steps planned for each search that is not finished.
+  void run(double share, Monitor& monitor) {
+    tbb::parallel_for(std::size_t{0}, searches_.size(), [&](std::size_t k) {
+      auto& [search, steps] = searches_[k];
+      if (!search) return;
+      search->run(static_cast<std::int64_t>(steps * share) + 1, monitor);
+      if (search->best().size() < rows_[k].size()) {
+        rows_[k].clear();
+        for (const std::int32_t i : search->best()) {
+          rows_[k].push_back(search->part().row_ids[static_cast<std::size_t>(i)]);
+        }
+      }
+      if (search->proven()) search.reset();
     });
   }
 
@@ -94,24 +146,81 @@ class Searches {
   }
 
  private:
+  static constexpr std::size_t most_balls_of_core = 200;
+  static constexpr std::int64_t mean_weight_of_core = 500;
+
+  struct Search {
+    std::unique_ptr<WeightingSearch> search;  // none: finished
+    double steps = 0;
+  };
+
+  std::int64_t price_of(std::size_t k) const {
+    std::int64_t sum = 0;
+    for (const std::int32_t c : parts_.columns(k)) sum += prices_[static_cast<std::size_t>(c)];
+    return sum;
+  }
+
+  /// What the prices prove about component k.
+  std::int64_t bound_of(std::size_t k) const {
+    return std::max<std::int64_t>(1, (price_of(k) + price_unit - 1) / price_unit);
+  }
+
+  /// The rows of component k that are in its best cover, or whose reduced cost (1 less the prices of their
+  /// columns) is at most (balls - bound) / bound. `cover` becomes the best cover in their numbers.
+  Part core(std::size_t k, const Part& all, const std::vector<std::int32_t>& best,
+            std::vector<std::int32_t>& cover, Monitor& monitor) const {
+    const std::int64_t bound = bound_of(k);
+    const std::int64_t most = (static_cast<std::int64_t>(best.size()) - bound) * price_unit / bound;
+    Part part{{}, all.column_ids, {}, {}};
+    std::vector<std::int64_t> offsets{0};
+    std::vector<std::int32_t> entries;
+    Lookout look(monitor);
+    for (std::size_t i = 0; i < all.rows.size(); ++i) {
+      look(all.rows.degree(i));
+      const bool chosen = cover.size() < best.size() && best[cover.size()] == static_cast<std::int32_t>(i);
+      std::int64_t reduced_cost = price_unit;
+      for (const std::int32_t c : all.rows[i]) {
+        reduced_cost -= prices_[static_cast<std::size_t>(all.column_ids[static_cast<std::size_t>(c)])];
+      }
+      if (!chosen && reduced_cost > most) continue;
+      if (chosen) cover.push_back(static_cast<std::int32_t>(part.row_ids.size()));
+      part.row_ids.push_back(all.row_ids[i]);
+      entries.insert(entries.end(), all.rows[i].begin(), all.rows[i].end());
+      offsets.push_back(static_cast<std::int64_t>(entries.size()));
+    }
+    part.rows = {std::move(offsets), std::move(entries)};
+    part.columns = transpose(part.rows, part.column_ids.size(), monitor);
+    return part;
+  }
+
   const CoverState& state_;
   Parts parts_;
+  std::vector<std::int64_t> prices_;  // of the columns of the matrix
+  std::uint64_t seed_;
   std::vector<std::vector<std::int32_t>> rows_;  // best cover of each component
-  std::vector<std::unique_ptr<WeightingSearch>> searches_;
+  std::vector<Search> searches_;
 };
 
 double number_of_steps(const CoverState& state, double rows, const LocalSearchOptions& options) {
-  const auto entries = static_cast<double>(state.nnz());
-  const double visited = entries / static_cast<double>(std::max<std::size_t>(state.rows(), 1)) +
-                         entries / static_cast<double>(std::max<std::size_t>(state.cols(), 1));
   const double wanted =
-      rows * std::min(options.steps_per_ball, options.work_per_ball / std::max(visited, 1.0));
+      rows * std::min(options.steps_per_ball,
+                      options.work_per_ball / visited(state.nnz(), state.rows(), state.cols()));
   return std::min(std::max(wanted, static_cast<double>(options.min_steps)),
                   static_cast<double>(options.max_steps));
 }
 
-bool good_enough(std::int64_t balls, std::int64_t bound, double target_gap) {
-  return static_cast<double>(balls - bound) <= target_gap * static_cast<double>(bound);
+/// Makes the planned steps, or until the gap is small enough.
+void run(Searches& searches, const CoverState& state, double target_gap, Monitor& monitor) {
+  constexpr int rounds = 64;  // between two looks at the gap
+  for (int round = 0; round < rounds; ++round) {
+    const std::int64_t balls = searches.balls(), bound = state.lower_bound;
+    if (searches.finished() ||
+        static_cast<double>(balls - bound) <= target_gap * static_cast<double>(bound)) {
+      return;
+    }
+    monitor.step(static_cast<double>(round) / rounds);
+    searches.run(1.0 / rounds, monitor);
+  }
 }
 
 }  // namespace
@@ -119,16 +228,15 @@ bool good_enough(std::int64_t balls, std::int64_t bound, double target_gap) {
 CoverState local_search(const CoverState& state, const LocalSearchOptions& options, Monitor& monitor) {
   monitor.step(0);
   Searches searches(state, options, monitor);
-  const auto rows = static_cast<double>(searches.searched_rows());
-  const double steps = number_of_steps(state, rows, options);
-  constexpr int rounds = 64;  // between two looks at the gap
-  for (int round = 0; round < rounds && steps >= 1; ++round) {
-    if (searches.searched_rows() == 0 ||
-        good_enough(searches.balls(), state.lower_bound, options.target_gap)) {
-      break;
-    }
-    monitor.step(static_cast<double>(round) / rounds);
-    searches.run(steps / rows / rounds, monitor);
+  const double steps = number_of_steps(state, searches.searched_rows(), options);
+  if (steps >= 1) {
+    PartMonitor first(monitor, 0, 0.5), second(monitor, 0.5, 1);
+    searches.plan(steps);
+    run(searches, state, options.target_gap, first);
+    const double gap = searches.searched_gap();
+    searches.narrow(options.core_steps_per_ball * gap, core_work * gap,
+                    static_cast<double>(options.max_steps), monitor);
+    run(searches, state, options.target_gap, second);
   }
   CoverState next = choose(state, searches.rows(), Choice::searched, monitor);
   raise_lower_bound(next);

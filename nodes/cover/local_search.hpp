@@ -13,6 +13,7 @@ struct LocalSearchOptions {
   double work_per_ball = 15'000;         // matrix entries visited: a step visits an average row and column
   std::int64_t min_steps = 200'000;      // for the whole matrix, also when it has few balls
   std::int64_t max_steps = 100'000'000;  // for the whole matrix; 0 is greedy without redundant balls
+  double core_steps_per_ball = 13'000;   // of the second search, times the gap that the first leaves
   double target_gap = 0;                 // stop when (balls - lower bound) / lower bound is at most this
   std::int64_t seed = 1;
 };
@@ -26,13 +27,19 @@ struct LocalSearchOptions {
 /// was added last is not dropped, the one that was dropped last is not added. Whenever everything is covered,
 /// the cover is recorded and one ball more is dropped.
 ///
-/// - A step takes about a microsecond, in dense matrices a few. Their number is steps_per_ball * rows, or
-///   work_per_ball * rows / (mean length of rows + mean length of columns) if that is less; at least
-///   min_steps and at most max_steps. Components share them in proportion to their rows. No clock: equal
-///   input gives equal balls.
+/// A second search goes on from covers of at most 200 balls, with their core alone: the balls of the cover,
+/// and those whose reduced cost (1 less the prices of their samples in the certificate) is at most (balls -
+/// bound) / bound of the component. Its weights are halved when they are 500 on average. It makes
+/// core_steps_per_ball steps for each ball of the component, or so many as visit 10^9 entries of the core if
+/// that is less, both times (balls - bound) / bound of all components whose cover is not proven the least.
+/// Components without prices have no core.
+///
+/// - A step takes about a microsecond, in dense matrices a few. The first search makes steps_per_ball * rows
+///   steps, or work_per_ball * rows / (mean length of rows + mean length of columns) if that is less; at
+///   least min_steps and at most max_steps. Components share them in proportion to their rows. No clock:
+///   equal input gives equal balls.
 /// - A component whose balls are as few as the prices of its samples prove stops at once (run
-/// lagrangian_bound
-///   before), and everything stops when the gap is at most target_gap.
+///   lagrangian_bound before), and everything stops when the gap is at most target_gap.
 /// - Components are searched in parallel; the result does not depend on the number of threads.
 /// - The lower bound stays what it was.
 CoverState local_search(const CoverState& state, const LocalSearchOptions& options = {},

@@ -15,9 +15,10 @@ struct LocalSearch {
   LocalSearchOptions options;
 
   static void declare(NodeDecl<LocalSearch>& d) {
-    d.id("LocalSearch", 1).summary("Cover what is left by few balls: greedy, then local search.");
+    d.id("LocalSearch", 2).summary("Cover what is left by few balls: greedy, then local search.");
     d.doc(
-        "Row-weighting local search on every connected component. Ends early where the certificate proves "
+        "Row-weighting local search on every connected component, then once more with the balls of small "
+        "reduced cost where at most 200 balls cover a component. Ends early where the certificate proves "
         "that fewer balls are impossible, so run LagrangianBound before. The number of steps is limited, not "
         "the "
         "time: equal input gives equal balls.");
@@ -43,6 +44,12 @@ struct LocalSearch {
         .at_least(0)
         .at_most(2'000'000'000)
         .doc("for the whole matrix; 0 is greedy without redundant balls");
+    d.param("core_steps_per_ball", &LocalSearch::options, &LocalSearchOptions::core_steps_per_ball)
+        .unit("steps")
+        .at_least(0)
+        .doc(
+            "times the gap: steps of a second search with balls of small reduced cost, where covers are "
+            "small");
     d.param("target_gap", &LocalSearch::options, &LocalSearchOptions::target_gap)
         .unit("fraction of the lower bound")
         .at_least(0)

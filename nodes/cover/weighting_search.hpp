@@ -12,10 +12,13 @@ namespace ballflow::geometry {
 
 class WeightingSearch {
  public:
+  static constexpr std::int64_t most_weight = std::int64_t{1} << 30;  // so that sums of weights fit 31 bits
+
   /// `cover` is any cover of `part` without redundant rows, `bound` no more than the smallest one.
-  /// Weights are halved when their sum reaches `weight_limit`, so that all sums of them fit 31 bits.
+  /// Weights are halved when their sum reaches `weight_limit`, at most most_weight: a low limit lets the
+  /// search forget.
   WeightingSearch(Part part, const std::vector<std::int32_t>& cover, std::int64_t bound, std::uint64_t seed,
-                  Monitor& monitor, std::int64_t weight_limit = std::int64_t{1} << 30);
+                  Monitor& monitor, std::int64_t weight_limit = most_weight);
 
   /// Goes on for `steps` steps, or until the best cover has `bound` rows. Not to be used after Cancelled.
   void run(std::int64_t steps, Monitor& monitor);
