@@ -89,13 +89,13 @@ function placeEntries(layers, heightOf) {
  * nodes: ids; edges: [{ from, to }]; depth: Map from id to layer, where an edge goes to a greater one.
  * Returns { places: Map(id -> { x, y }) of left upper corners, routes: [[{ x, y }, ...]] as edges, width, height }.
  */
-export function layOut(nodes, edges, depth, { width, height, columnGap = 56, rowGap = 14 }) {
+export function layOut(nodes, edges, depth, { width, height, columnGap = 40, rowGap = 14 }) {
   const { layers, routes } = layersOf(nodes, edges, depth);
   sortLayers(layers);
   const heightOf = ({ id }) => (id === null ? rowGap : height + rowGap);
   placeEntries(layers, heightOf);
   const all = layers.flat();
-  const top = Math.min(0, ...all.map((entry) => entry.y - heightOf(entry) / 2));
+  const top = Math.min(...all.map((entry) => entry.y - heightOf(entry) / 2));
   const left = (entry) => entry.layer * (width + columnGap);
   const places = new Map();
   for (const entry of all) {

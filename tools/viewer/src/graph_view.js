@@ -4,7 +4,8 @@ import { layOut } from './graph_layout.js';
 import { depths } from './model.js';
 import { duration } from './words.js';
 
-const size = { width: 138, height: 42 };
+const size = { width: 150, height: 42 };
+const smallest = 0.85; // of the natural size: what can be read
 const margin = 12;
 
 function shortened(text, most) {
@@ -32,10 +33,11 @@ export function graphView({ nodes, chosen, choose }) {
   const depth = depths(nodes);
   const forward = edges.filter(({ from, to }) => depth.get(from) < depth.get(to));
   const { places, routes, width, height } = layOut([...paths], forward, depth, size);
+  // As wide as there is room, but no smaller than can be read.
+  const natural = width + 2 * margin;
   const drawing = svg('svg', {
-    width: width + 2 * margin,
-    height: height + 2 * margin,
-    viewBox: `${-margin} ${-margin} ${width + 2 * margin} ${height + 2 * margin}`,
+    style: { width: '100%', maxWidth: `${natural}px`, minWidth: `${smallest * natural}px` },
+    viewBox: `${-margin} ${-margin} ${natural} ${height + 2 * margin}`,
     role: 'group',
     'aria-label': 'graph',
   });
@@ -69,9 +71,9 @@ export function graphView({ nodes, chosen, choose }) {
       svg('rect', { class: 'box', width: size.width, height: size.height, rx: 6 }),
       svg('rect', { class: 'mark', width: 4, height: size.height - 12, x: 5, y: 6, rx: 2 }),
       svg('text', { class: 'name', x: 16, y: 17 },
-        svg('tspan', { class: 'group', text: slash < 0 ? '' : shortened(node.name.slice(0, slash + 1), 10) }),
-        svg('tspan', { text: shortened(node.name.slice(slash + 1), slash < 0 ? 18 : 11) })),
-      svg('text', { class: 'type', x: 16, y: 32, text: shortened(node.type, 14) }),
+        svg('tspan', { class: 'group', text: slash < 0 ? '' : shortened(node.name.slice(0, slash + 1), 11) }),
+        svg('tspan', { text: shortened(node.name.slice(slash + 1), slash < 0 ? 19 : 12) })),
+      svg('text', { class: 'type', x: 16, y: 32, text: shortened(node.type, time || status ? 14 : 20) }),
       svg('text', { class: 'status', x: size.width - 8, y: 32, 'text-anchor': 'end', text: time || status.toUpperCase() }),
     );
     drawing.append(box);

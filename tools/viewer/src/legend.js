@@ -1,6 +1,6 @@
 // What the colours mean, over the picture.
 import { element } from './dom.js';
-import { counted, grouped, rounded } from './words.js';
+import { counted, grouped, ticks } from './words.js';
 
 /**
  * entries: [{ layers: [{ title, count, shape }], attribute: name or null, unit, range: { min, max }, categories,
@@ -31,11 +31,11 @@ function swatch(colour) {
 function scale(attribute, unit, { min, max }, palette) {
   const bar = element('div', { class: 'bar' });
   bar.style.background = palette.gradient();
-  const ticks = min === max ? [min] : [min, (min + max) / 2, max];
+  const texts = ticks(min === max ? [min] : [min, (min + max) / 2, max]);
   return element(
     'div', { class: 'scale' },
     element('div', { class: 'what', text: unit ? `${attribute} (${unit})` : attribute }),
     bar,
-    element('div', { class: 'ticks' }, ...ticks.map((tick) => element('span', { text: rounded(tick, 3) }))),
+    element('div', { class: 'ticks' }, ...texts.map((text) => element('span', { text }))),
   );
 }

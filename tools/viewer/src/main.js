@@ -83,14 +83,14 @@ function heading() {
   const graph = graphOf();
   const title = graph ? graph.name : scene.loose.map(({ name }) => name).join(', ');
   document.title = `${title} \u2013 ballflow`;
-  const facts = [graph?.run, graph?.status, graph?.seconds !== undefined && duration(graph.seconds)].filter(Boolean);
+  const started = graph?.started?.slice(0, 16).replace('T', ' ');
+  const facts = [started, graph?.status, graph?.seconds !== undefined && duration(graph.seconds)].filter(Boolean);
   const params = Object.entries(graph?.params ?? {}).map(([name, value]) => `${name} = ${plain(value)}`);
   return element(
     'header', {},
-    element('h1', { text: title, title: graph?.doc }),
-    element('span', { class: 'facts', text: facts.join(' \u00b7 '), title: params.join('\n') }),
-    element('span', { class: 'params', text: params.join(', ') }),
-    element('span', { class: 'space' }),
+    element('h1', { text: title.split('/').at(-1), title: graph?.doc ?? title }),
+    element('span', { class: 'facts', text: facts.join(' \u00b7 '), title: graph?.run && `run ${graph.run}` }),
+    element('span', { class: 'params', text: params.join(', '), title: params.join('\n') }),
     scene.left_out.length > 0 &&
       element('details', { class: 'left-out' }, element('summary', { text: `${scene.left_out.length} left out` }),
         element('ul', {}, ...scene.left_out.map((text) => element('li', { text })))),
@@ -132,7 +132,7 @@ function showLegend() {
   const entries = [];
   for (const layer of visibleLayers()) {
     const { attribute, colour, range } = coloured(layer);
-    const line = { title: layer.name, count: layer.count, shape: layer.shape, key: layer.key };
+    const line = { title: layer.title, count: layer.count, shape: layer.shape, key: layer.key };
     const shared = attribute && !attribute.categories && entries.find((entry) => entry.range && entry.attribute === attribute.name);
     if (shared) {
       shared.layers.push(line);
@@ -166,7 +166,7 @@ function showSide() {
 
 function showGraph() {
   const all = nodes();
-  parts.graph.hidden = all.length === 0 || !state.graphOpen;
+  parts.graph.hidden = all.length === 0 || (hasLayers && !state.graphOpen);
   if (parts.graph.hidden) return;
   const scrolled = parts.graph.firstChild;
   const [left, top] = scrolled ? [scrolled.scrollLeft, scrolled.scrollTop] : [0, 0];
@@ -199,9 +199,15 @@ async function paint(drawing, layer) {
 }
 
 let shownAt = 0;
+let picture = Promise.resolve();
 
 /** Brings the picture up to date; a later call overtakes an earlier one that still unpacks. */
-async function showPicture() {
+function showPicture() {
+  picture = drawLayers();
+  return picture;
+}
+
+async function drawLayers() {
   if (!stage) return;
   const mine = ++shownAt;
   const layers = model.drawingOrder(visibleLayers());
@@ -275,6 +281,7 @@ function chooseNode(path) {
   const done = showAll();
   const now = visibleLayers();
   if (stage && now.length > 0 && !now.some(({ key }) => fits.has(key))) fit();
+  parts.graph.querySelector('.chosen')?.scrollIntoView({ block: 'nearest', inline: 'nearest' });
   return done;
 }
 
@@ -320,7 +327,7 @@ async function showPicked(event) {
   const hit = pick(list, origin.toArray(), direction.toArray(), stage.centre, kept);
   if (!hit) return hidePicked();
   const { layer } = hit.drawing;
-  const lines = [`${layer.name} ${hit.index}`];
+  const lines = [`${layer.title}, ${layer.shape.slice(0, -1)} ${hit.index}`];
   for (const attribute of layer.attributes) {
     const values = await blocks.get(attribute.values);
     const value = values[attribute.per === 'element' ? hit.index : hit.vertex];
@@ -436,7 +443,7 @@ window.ballflow = {
     return { centre: layer.centre, ...Object.fromEntries(Object.entries(arrays).map(([name, values]) => [name, Array.from(values)])) };
   },
   settled: async () => {
-    await showPicture();
+    await picture;
     stage?.render();
   },
 };

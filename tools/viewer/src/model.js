@@ -85,8 +85,10 @@ export function groupsOf(scene, variant, nodePath, withOutputs = false) {
     const artifact = scene.artifacts[digest];
     if (!artifact || taken.has(title)) return;
     taken.add(title);
+    const alone = artifact.layers?.length === 1;
     const layers = (artifact.layers ?? []).map((layer) => ({
       ...layer,
+      title: alone ? title : layer.name,
       key: `${title}/${layer.name}`,
       drawing: `${digest}/${layer.name}`,
     }));

@@ -76,7 +76,7 @@ export function layersPanel({ title, groups, settings, palette, change, back, wi
   const scope = back && element(
     'div', { class: 'scope' },
     element('button', { text: 'Back to the outputs', onclick: back }),
-    element('label', {}, element('input', { type: 'checkbox', checked: withOutputs, onchange: (event) => setWithOutputs(event.target.checked) }), ' keep the outputs'),
+    element('label', {}, element('input', { type: 'checkbox', checked: withOutputs, onchange: (event) => setWithOutputs(event.target.checked) }), 'keep the outputs'),
   );
   return section(title, scope, ...lists);
 }
@@ -85,7 +85,12 @@ const axisNames = ['x', 'y', 'z'];
 
 /** clip: { on, axis, position in [0, 1] of the box, flipped } */
 export function clipPanel({ clip, box, change }) {
-  const at = () => (box ? box.lower[clip.axis] + clip.position * (box.upper[clip.axis] - box.lower[clip.axis]) : 0);
+  const at = () => {
+    if (!box) return 0;
+    const extent = box.upper[clip.axis] - box.lower[clip.axis];
+    const position = box.lower[clip.axis] + clip.position * extent;
+    return Math.abs(position) < extent / 1000 ? 0 : position; // no 1e-17 in the middle of a symmetric model
+  };
   const on = element('input', { type: 'checkbox', checked: clip.on, onchange: () => change({ on: on.checked }) });
   const value = element('output', { text: rounded(at()) });
   const slider = element('input', {
@@ -102,7 +107,7 @@ export function clipPanel({ clip, box, change }) {
   return section(
     'Section',
     element('div', { class: 'clip' },
-      element('label', {}, on, ' cut'),
+      element('label', {}, on, 'cut'),
       element('span', { class: 'buttons' }, ...axes, element('button', { text: 'flip', disabled: !clip.on, class: clip.flipped ? 'chosen' : '', onclick: () => change({ flipped: !clip.flipped }) }))),
     element('label', { class: 'axis' }, element('span', { text: axisNames[clip.axis] }), slider, value),
   );
@@ -118,7 +123,8 @@ const statusWords = { hit: 'from the cache', run: 'ran', failed: 'failed', skipp
 
 function timeOf(node) {
   if (node.status === 'run' && node.seconds !== undefined) return duration(node.seconds);
-  if (node.cost_seconds) return `${duration(node.cost_seconds)} when it ran`;
+  const planned = node.status === 'RUN' || node.status === 'MAYBE';
+  if (node.cost_seconds) return planned ? `about ${duration(node.cost_seconds)}` : `${duration(node.cost_seconds)} when it ran`;
   return null;
 }
 
@@ -131,7 +137,8 @@ export function nodePanel({ node, type, artifacts }) {
   if (node.iterations !== undefined) facts.push(['iterations', grouped(node.iterations)]);
   const params = Object.entries(node.params).map(([name, value]) => {
     const { unit, doc } = type?.params?.[name] ?? {};
-    return [name, plain(value) + (unit && typeof value === 'number' ? ` ${unit}` : ''), doc];
+    const measured = unit && unit !== '1' && typeof value === 'number';
+    return [name, element('span', {}, plain(value), measured && element('span', { class: 'type', text: ` ${unit}` })), doc];
   });
   const outputs = Object.entries(node.outputs).map(([port, output]) => {
     const artifact = artifacts[output.digest];

@@ -47,7 +47,6 @@ in float radius;
 in float value;
 uniform mat4 modelViewMatrix, projectionMatrix;
 uniform vec2 viewport;
-uniform float near;
 uniform bool orthographic;
 ${colours}
 flat out vec3 c;
@@ -62,18 +61,21 @@ void main() {
     gl_Position = projectionMatrix * vec4(c + vec3(position.xy * (r + pixel), r), 1.0);
     return;
   }
-  float d = length(c), front = d - r;
   if (c.z - r > 0.0) {
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // behind the camera
-  } else if (front < 2.0 * near) {
-    gl_Position = vec4(position.xy, -1.0, 1.0);  // the camera is inside, or nearly
-  } else {
-    vec3 axis = c / d;
-    vec3 right = normalize(cross(axis, abs(axis.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0)));
-    vec3 up = cross(right, axis);
-    float size = front * (r / sqrt((d - r) * (d + r)) + pixel);
-    gl_Position = projectionMatrix * vec4(axis * front + size * (position.x * right + position.y * up), 1.0);
+    return;
   }
+  float d = length(c), front = d - r;
+  vec3 axis = c / d;
+  vec3 right = normalize(cross(axis, abs(axis.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0)));
+  vec3 up = cross(right, axis);
+  float size = front * (r / sqrt((d - r) * (d + r)) + pixel);
+  if (front <= 0.0 || axis.z * front + size * (abs(right.z) + abs(up.z)) > -1e-3 * front) {
+    gl_Position = vec4(position.xy, -1.0, 1.0);  // the camera is inside, or nearly: the whole picture
+    return;
+  }
+  gl_Position = projectionMatrix * vec4(axis * front + size * (position.x * right + position.y * up), 1.0);
+  gl_Position.z = max(gl_Position.z, -gl_Position.w);  // the ball may begin before the near plane
 }
 `;
 
@@ -110,7 +112,7 @@ void main() {
     p = eye + cut * ray;
     normal = clipPlane.xyz;
     float depth = sqrt(max(r * r - dot(p - c, p - c), 0.0));
-    bias = 2e-5 * min(depth / sceneRadius, 1.0);
+    bias = 5e-4 * min(depth / sceneRadius, 1.0);
     fragment = vec4(mix(colour, vec3(1.0), 0.12) * 0.9, opacity);
   } else {
     normal = (p - c) / r;

@@ -37,7 +37,7 @@ const views = {
 };
 
 export class Stage {
-  #requested = false;
+  #requested = 0;
   #scale = 1;
   #moving = false;
   #lastFrame = 0;
@@ -71,8 +71,10 @@ export class Stage {
     this.clip = null; // { axis: 0 | 1 | 2, position (model units), flipped }
     this.onchange = () => {};
     this.#control();
-    new ResizeObserver(() => this.#resize()).observe(canvas.parentElement);
     this.#resize();
+    new ResizeObserver(([{ contentRect }]) => {
+      if (contentRect.width !== this.width || contentRect.height !== this.height) this.#resize();
+    }).observe(canvas.parentElement);
   }
 
   get common() {
@@ -131,10 +133,7 @@ export class Stage {
   }
 
   request() {
-    if (this.#requested) return;
-    this.#requested = true;
-    requestAnimationFrame((now) => {
-      this.#requested = false;
+    this.#requested ||= requestAnimationFrame((now) => {
       this.#adapt(now);
       this.render();
     });
@@ -181,6 +180,8 @@ export class Stage {
   }
 
   render() {
+    cancelAnimationFrame(this.#requested);
+    this.#requested = 0;
     if (!this.width) return;
     this.#range();
     this.#cut();

@@ -13,7 +13,16 @@ export function rounded(value, digits = 4) {
   return String(Number(value.toPrecision(digits)));
 }
 
-/** 0.0123 -> "12 ms", 1.239 -> "1.24 s", 125 -> "2 min 05 s" */
+/** Numbers of one scale with as many digits as it takes to tell them apart. */
+export function ticks(values) {
+  for (let digits = 3; digits < 9; ++digits) {
+    const texts = values.map((value) => rounded(value, digits));
+    if (new Set(texts).size === new Set(values).size) return texts;
+  }
+  return values.map(String);
+}
+
+/** 0.0123 -> "12.3 ms", 1.239 -> "1.24 s", 125 -> "2 min 05 s" */
 export function duration(seconds) {
   if (seconds < 0.9995) return `${rounded(1000 * seconds, seconds < 0.01 ? 2 : 3)}\u2009ms`;
   if (seconds < 59.95) return `${rounded(seconds, 3)}\u2009s`;

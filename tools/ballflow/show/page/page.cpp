@@ -13,9 +13,11 @@ namespace {
 
 constexpr std::string_view data_mark = "<!-- ballflow data -->";
 
-std::string megabytes(std::uint64_t bytes) {
+std::string size_text(std::uint64_t bytes) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.1f MB", static_cast<double>(bytes) / 1e6);
+  const auto size = static_cast<double>(bytes);
+  std::snprintf(text, sizeof text, bytes < 1'000'000 ? "%.0f kB" : "%.1f MB",
+                bytes < 1'000'000 ? size / 1e3 : size / 1e6);
   return text;
 }
 
@@ -91,7 +93,7 @@ Json Page::packed(const std::string& digest, const Wanted& wanted, const PageSou
   const auto missing = [](const std::string& why) { return Json{{"missing", why}}; };
   if (!can_be_shown(wanted.type)) return Json::object();
   const std::size_t before = blocks_.all().size();
-  const std::string too_large = "left out: the page would be larger than " + megabytes(max_bytes_);
+  const std::string too_large = "left out: the page would be larger than " + size_text(max_bytes_);
   Json layers = Json::array();
   try {
     ArtifactPtr artifact = wanted.artifact;
@@ -153,7 +155,7 @@ std::string Page::html(const std::string& page_template, const std::string& vers
   const std::string json = script_json(scene);
   if (json.size() > max_bytes_) {
     throw Error(ExitCode::usage,
-                "what is known of the nodes alone takes " + megabytes(json.size()) + ", more than --max-size",
+                "what is known of the nodes alone takes " + size_text(json.size()) + ", more than --max-size",
                 "give a larger --max-size, or artifacts instead of the run");
   }
   std::string page;
