@@ -161,7 +161,8 @@ TEST(layer_json, keeps_the_digits_of_a_model_that_is_far_from_the_origin) {
     EXPECT_NEAR(json.at("centre")[2].get<double>() + vertices[3 * i + 2], layer.vertices[i].z, 1e-4);
   }
   EXPECT_EQ(json.at("count"), 50);
-  EXPECT_EQ(json.at("lower")[0], 1e7 - 1);
+  EXPECT_NEAR(json.at("lower")[0].get<double>(), 1e7 + 7 - (1 + 49 / 3.0), 1e-6)
+      << "with the radius of the last ball";
 }
 
 TEST(layer_json, shares_vertices_of_balls_that_differ_in_radius_alone) {
