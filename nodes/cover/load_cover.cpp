@@ -10,6 +10,7 @@
 #include "cover/cover_matrix.hpp"
 #include "cover/residual.hpp"
 #include "sample/file_content.hpp"
+#include "sample/load_balls.hpp"
 #include "sample/text_cursor.hpp"
 
 namespace ballflow::geometry {
@@ -251,48 +252,14 @@ Lists parse_any(const Numbers& numbers, Monitor& monitor) {
   return std::move(*found);
 }
 
-bool is_ball_line(std::string_view content) {
-  TextCursor text(content, '#', ",;");
-  const std::string_view token = text.token();
-  return token == "v" || token == "x" || (parse_real(token) && !parse_integer(token));
-}
-
-Balls parse_balls(std::string_view content, double dilation, Monitor& monitor) {
-  TextCursor text(content, '#', ",;");
-  std::vector<Vec3> centers;
-  std::vector<double> radii;
-  for (bool header = true; !text.at_end(); text.next_line()) {
-    if (radii.size() % tokens_per_step == 0) {
-      monitor.step(0.5 * static_cast<double>(text.offset()) / static_cast<double>(content.size()));
-    }
-    std::string_view token = text.token_on_line();
-    if (token.empty()) continue;
-    if (std::exchange(header, false) && token == "x") continue;
-    if (token == "v") token = text.token_on_line();
-    const auto number = static_cast<std::int64_t>(radii.size());
-    const auto coordinate = [&](const char* name) {
-      const double value = parse_coordinate(text, token, "ball", number, name);
-      token = text.token_on_line();
-      return value;
-    };
-    const double x = coordinate("x"), y = coordinate("y"), z = coordinate("z");
-    const std::string_view radius_token = token;
-    const double r = coordinate("r");
-    if (r < 0) {
-      throw InputError("ball " + std::to_string(number) + ": the radius is " + excerpt(radius_token) +
-                           text.place_of(radius_token),
-                       "a radius is at least 0");
-    }
-    if (!token.empty()) {
-      throw InputError("ball " + std::to_string(number) + ": " + excerpt(token) + " follows the radius" +
-                           text.place_of(token),
-                       "a line is x y z r, with or without a v before it");
-    }
-    centers.push_back({x, y, z});
-    radii.push_back(r + dilation);
-  }
-  if (radii.empty()) throw InputError("the file has no ball", "a line is x y z r");
-  return {std::move(centers), std::move(radii), {}, {}};
+Balls grown_balls(std::string_view content, double dilation, Monitor& monitor) {
+  PartMonitor reading(monitor, 0, 0.5);
+  Balls balls = parse_ball_rows(content, reading);
+  if (dilation == 0) return balls;
+  std::vector<double> radii(balls.radii.begin(), balls.radii.end());
+  for (double& r : radii) r += dilation;
+  balls.radii = std::move(radii);
+  return balls;
 }
 
 /// The points of the affine space over the field of three elements, and its lines. Point p has the digits of
@@ -335,13 +302,13 @@ LoadedCover parse_cover(std::string_view content, CoverFormat format, double dil
     throw InputError("dilation is " + std::to_string(dilation), "it is a finite number of at least 0");
   }
   monitor.step(0);
-  if (format == CoverFormat::balls || (format == CoverFormat::automatic && is_ball_line(content))) {
+  if (format == CoverFormat::balls || (format == CoverFormat::automatic && is_ball_rows(content))) {
     if (points == nullptr) {
       throw InputError("the file lists balls, and there are no points for them to cover",
                        "connect the samples to the input points");
     }
     PartMonitor rest(monitor, 0.5, 1);
-    CoverMatrix matrix = cover_matrix(parse_balls(content, dilation, monitor), *points,
+    CoverMatrix matrix = cover_matrix(grown_balls(content, dilation, monitor), *points,
                                       {.uncovered = UncoveredPolicy::report}, rest);
     return {std::move(matrix.cover), std::move(matrix.balls)};
   }

@@ -16,6 +16,7 @@ namespace ballflow::geometry {
 struct RawModel {
   std::vector<Vec3> vertices;       // finite
   std::vector<Vec3> normals;        // one per vertex, of any length and not checked, or none
+  std::vector<double> radii;        // of PLY: one per vertex, not checked, or none
   std::vector<Triangle> triangles;  // polygons as fans; indices in range, repeated ones allowed
   std::int64_t faces = 0;           // polygons the file lists
   std::int64_t small_faces = 0;     // polygons of fewer than three corners, dropped

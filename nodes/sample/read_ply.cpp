@@ -1,6 +1,6 @@
 // PLY (Stanford): ASCII and both binary encodings, elements and properties in any order. Used are x, y, z,
-// nx, ny, nz of "vertex", vertex_indices (or vertex_index) of "face" and of "tristrips"; the rest is passed
-// over.
+// nx, ny, nz, radius (or r) of "vertex", vertex_indices (or vertex_index) of "face" and of "tristrips"; the
+// rest is passed over.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -15,7 +15,7 @@ namespace {
 
 enum class Encoding { ascii, little_endian, big_endian };
 enum class Scalar { i8, u8, i16, u16, i32, u32, i64, u64, f32, f64 };
-enum class Role { none, x, y, z, nx, ny, nz, indices };
+enum class Role { none, x, y, z, nx, ny, nz, radius, indices };
 
 std::size_t bytes(Scalar type) {
   switch (type) {
@@ -174,8 +174,10 @@ class HeaderParser {
 
   Role role(std::string_view element, const Property& property) const {
     if (element == "vertex" && !property.list) {
-      static constexpr std::array<std::string_view, 6> names = {"x", "y", "z", "nx", "ny", "nz"};
-      static constexpr std::array roles = {Role::x, Role::y, Role::z, Role::nx, Role::ny, Role::nz};
+      static constexpr std::array<std::string_view, 8> names = {"x",  "y",  "z",      "nx",
+                                                                "ny", "nz", "radius", "r"};
+      static constexpr std::array roles = {Role::x,  Role::y,  Role::z,      Role::nx,
+                                           Role::ny, Role::nz, Role::radius, Role::radius};
       for (std::size_t i = 0; i < names.size(); ++i) {
         if (property.name == names[i]) return roles[i];
       }
@@ -326,7 +328,7 @@ class BodyParser {
 
  private:
   void prepare_vertices(const Element& element) {
-    std::array<bool, 8> has{};
+    std::array<bool, 9> has{};
     for (const Property& property : element.properties) has[static_cast<std::size_t>(property.role)] = true;
     const auto missing = [&has](Role role) { return !has[static_cast<std::size_t>(role)]; };
     if (missing(Role::x) || missing(Role::y) || missing(Role::z)) {
@@ -334,9 +336,11 @@ class BodyParser {
       throw InputError(std::string("the PLY header gives vertices no property ") + name,
                        "write the file again with x, y and z");
     }
+    has_radii_ = !missing(Role::radius);
     has_normals_ = !missing(Role::nx) && !missing(Role::ny) && !missing(Role::nz);
     model_.vertices.reserve(static_cast<std::size_t>(element.count));
     if (has_normals_) model_.normals.reserve(static_cast<std::size_t>(element.count));
+    if (has_radii_) model_.radii.reserve(static_cast<std::size_t>(element.count));
   }
 
   void read(const Element& element, std::int64_t number) {
@@ -365,6 +369,9 @@ class BodyParser {
           break;
         case Role::nz:
           target = &normal_.z;
+          break;
+        case Role::radius:
+          target = &radius_;
           break;
         default:
           values_.skip(property.type);
@@ -400,6 +407,7 @@ class BodyParser {
     require_finite(point_, "vertex", number);
     add_vertex(model_, point_);
     if (has_normals_) model_.normals.push_back(normal_);
+    if (has_radii_) model_.radii.push_back(radius_);
   }
 
   /// Every three successive vertices are a triangle, every other one turned round; -1 begins a new strip.
@@ -421,8 +429,9 @@ class BodyParser {
   Monitor& monitor_;
   RawModel model_;
   std::int64_t vertex_count_ = 0;
-  bool has_normals_ = false;
+  bool has_normals_ = false, has_radii_ = false;
   Vec3 point_, normal_;
+  double radius_ = 0;
   std::vector<std::int32_t> indices_;
 };
 

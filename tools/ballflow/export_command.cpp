@@ -20,7 +20,9 @@ std::string formats_help() {
   };
   for (const std::string& type : exported_types()) add(type, export_formats(type));
   add("any other type", export_formats(""));
-  return text + "safetensors is the artifact itself, byte for byte; json only describes it.";
+  return text +
+         "safetensors is the artifact itself, byte for byte; json only describes it.\n"
+         "For ParaView take vtp, for Blender and browsers glb, for NumPy npy, for Q-MAT and its kin ma.";
 }
 
 int export_one(const Common& common, const ExportArguments& arguments) {
@@ -34,7 +36,7 @@ int export_one(const Common& common, const ExportArguments& arguments) {
 
 void add_export(CLI::App& app, Common& common, Action& action) {
   CLI::App* command =
-      app.add_subcommand("export", "write an artifact in a usual format (ply, obj, off, csv, ...)");
+      app.add_subcommand("export", "write an artifact in a usual format (ply, vtp, glb, npy, ...)");
   const auto arguments = std::make_shared<ExportArguments>();
   command->add_option("artifact", arguments->artifact, "digest from a run report, or a file of the cache")
       ->required();

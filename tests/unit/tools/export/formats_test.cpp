@@ -9,6 +9,7 @@
 #include "ballflow/error.hpp"
 #include "check_exports.hpp"
 #include "export/export.hpp"
+#include "sample/load_balls.hpp"
 #include "samples.hpp"
 #include "sealed.hpp"
 #include "test_data.hpp"
@@ -145,6 +146,32 @@ TEST(glb, is_the_same_file_every_time) {
   export_artifact(*sealed(sample_axis()), folder.file("a.glb"));
   export_artifact(*sealed(sample_axis()), folder.file("b.glb"));
   EXPECT_EQ(read_file(folder.file("a.glb")), read_file(folder.file("b.glb")));
+}
+
+TEST(balls, come_back_to_the_last_bit_from_every_format_that_LoadBalls_reads) {
+  const TempFolder folder;
+  for (const char* format : {"ply", "csv", "ma", "sph"}) {
+    SCOPED_TRACE(format);
+    const std::string file = folder.file(std::string("a.") + format);
+    export_artifact(*sealed(sample_balls()), file);
+    const geometry::LoadedBalls loaded = geometry::load_balls({file});
+    EXPECT_EQ(loaded.balls.centers, sample_balls().centers);
+    EXPECT_EQ(loaded.balls.radii, sample_balls().radii);
+  }
+}
+
+TEST(ma, holds_a_medial_axis_that_comes_back_with_its_topology) {
+  const TempFolder folder;
+  const geometry::MedialAxis axis = axis_with_a_lone_vertex();
+  export_artifact(*sealed(axis), folder.file("a.ma"));
+  const geometry::MedialAxis back = geometry::load_balls({folder.file("a.ma")}).axis;
+  EXPECT_EQ(back.vertices, axis.vertices);
+  EXPECT_EQ(back.radii, axis.radii);
+  EXPECT_EQ(back.edges, axis.edges);
+  EXPECT_EQ(back.polygons(), 1u + 3u);  // the triangle, and the pentagon cut into three
+  EXPECT_EQ(geometry::axis_topology(back).euler_characteristic,
+            geometry::axis_topology(axis).euler_characteristic);
+  EXPECT_EQ(geometry::axis_topology(back).components, geometry::axis_topology(axis).components);
 }
 
 TEST(ma, cuts_polygons_without_changing_the_topology) {
