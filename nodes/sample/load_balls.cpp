@@ -177,6 +177,7 @@ class AxisReader {
     }
     std::int32_t kept = 0;
     for (std::size_t i = 0; i < deleted_.size(); ++i) {
+      look_(1);
       number_.push_back(kept);
       if (deleted_[i]) continue;
       list_.centers.push_back(listed_.centers[i]);
@@ -223,6 +224,15 @@ class AxisReader {
     list.push_back(corners);
   }
 
+  /// std::sort, which can be cancelled.
+  template <class T>
+  void sort(std::vector<T>& values) {
+    std::sort(values.begin(), values.end(), [this](const T& a, const T& b) {
+      look_(1);
+      return a < b;
+    });
+  }
+
   /// Drops elements that use a vertex twice and all but the first of those with equal vertices, and keeps the
   /// order of the others.
   template <std::size_t n>
@@ -232,18 +242,23 @@ class AxisReader {
     std::vector<Key> keys;
     keys.reserve(list.size());
     for (std::size_t i = 0; i < list.size(); ++i) {
+      look_(n);
       auto sorted = list[i];
       std::sort(sorted.begin(), sorted.end());
       if (std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end()) keys.emplace_back(sorted, i);
     }
-    std::sort(keys.begin(), keys.end());
-    monitor_.step(0.9);
-    const auto same = [](const Key& a, const Key& b) { return a.first == b.first; };
-    keys.erase(std::unique(keys.begin(), keys.end(), same), keys.end());
-    std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) { return a.second < b.second; });
+    sort(keys);
+    std::vector<bool> is_first(list.size(), false);
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+      look_(1);
+      is_first[keys[k].second] = k == 0 || keys[k].first != keys[k - 1].first;
+    }
     std::vector<std::array<std::int32_t, n>> kept;
-    kept.reserve(keys.size());
-    for (const Key& key : keys) kept.push_back(list[key.second]);
+    kept.reserve(list.size());
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      look_(n);
+      if (is_first[i]) kept.push_back(list[i]);
+    }
     if (const std::size_t dropped = list.size() - kept.size(); dropped != 0) {
       monitor_.warn(std::to_string(dropped) + " " + elements +
                     " that repeat an earlier one, or use a vertex twice, are dropped");
@@ -260,12 +275,15 @@ class AxisReader {
     std::vector<std::int32_t> corners;
     std::vector<std::int64_t> offsets{0};
     for (const auto& [a, b, c] : triangles) {
+      look_(9);
       sides.insert(sides.end(), {undirected(a, b), undirected(b, c), undirected(c, a)});
       corners.insert(corners.end(), {a, b, c});
       offsets.push_back(static_cast<std::int64_t>(corners.size()));
     }
-    std::sort(sides.begin(), sides.end());
+    sort(sides);
+    monitor_.step(0.9);
     std::erase_if(edges, [&](const Edge& edge) {
+      look_(32);  // steps of the search
       return std::binary_search(sides.begin(), sides.end(), undirected(edge[0], edge[1]));
     });
     LoadedBalls loaded;
@@ -282,6 +300,7 @@ class AxisReader {
 
   LineReader lines_;
   Monitor& monitor_;
+  Lookout look_{monitor_};
   BallList listed_, list_;            // all vertices of the file; those that are kept
   std::vector<bool> deleted_;         // by index of the file
   std::vector<std::int32_t> number_;  // of a kept vertex

@@ -31,7 +31,7 @@ struct LoadedBalls {
 ///   which MATTopo's flags may follow: type, deleted, count.
 /// - rows: "x y z r" a line, separated by blanks, commas or semicolons, also with a "v" in front (Coverage
 ///   Axis). A first line of names (x, y, z, r or radius) may be there, and then more columns, too.
-/// - PLY: the vertices with their property radius (or r); everything else is passed over.
+/// - PLY: the vertices with their property radius; everything else is passed over.
 ///
 /// "#" begins a comment, except in PLY. Numbers are read with the decimal point in every locale and rounded
 /// to the nearest double; they are not changed. In an axis, repeated edges and triangles, and those that use

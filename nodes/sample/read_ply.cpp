@@ -1,5 +1,5 @@
 // PLY (Stanford): ASCII and both binary encodings, elements and properties in any order. Used are x, y, z,
-// nx, ny, nz, radius (or r) of "vertex", vertex_indices (or vertex_index) of "face" and of "tristrips"; the
+// nx, ny, nz, radius of "vertex", vertex_indices (or vertex_index) of "face" and of "tristrips"; the
 // rest is passed over.
 #include <algorithm>
 #include <array>
@@ -174,10 +174,9 @@ class HeaderParser {
 
   Role role(std::string_view element, const Property& property) const {
     if (element == "vertex" && !property.list) {
-      static constexpr std::array<std::string_view, 8> names = {"x",  "y",  "z",      "nx",
-                                                                "ny", "nz", "radius", "r"};
-      static constexpr std::array roles = {Role::x,  Role::y,  Role::z,      Role::nx,
-                                           Role::ny, Role::nz, Role::radius, Role::radius};
+      static constexpr std::array<std::string_view, 7> names = {"x", "y", "z", "nx", "ny", "nz", "radius"};
+      static constexpr std::array roles = {Role::x,  Role::y,  Role::z,     Role::nx,
+                                           Role::ny, Role::nz, Role::radius};
       for (std::size_t i = 0; i < names.size(); ++i) {
         if (property.name == names[i]) return roles[i];
       }

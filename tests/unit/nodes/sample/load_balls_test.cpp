@@ -94,11 +94,12 @@ const std::string header_of_ply =
     "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
 
 TEST(load_balls, refuses_ply_without_radii_and_with_bad_ones) {
-  EXPECT_TRUE(names(refusal(header_of_ply + "end_header\n0 0 0\n"), {"no property \"radius\"", "Sample"}));
-  EXPECT_TRUE(names(refusal(header_of_ply + "property float r\nend_header\n0 0 0 -2\n"),
+  EXPECT_TRUE(names(refusal(header_of_ply + "property uchar r\nend_header\n0 0 0 255\n"),
+                    {"no property \"radius\"", "Sample"}));
+  EXPECT_TRUE(names(refusal(header_of_ply + "property float radius\nend_header\n0 0 0 -2\n"),
                     {"vertex 0", "radius is -2"}));
   EXPECT_TRUE(
-      names(refusal(header_of_ply + "property float r\nend_header\n0 0 0 nan\n"), {"vertex 0", "nan"}));
+      names(refusal(header_of_ply + "property float radius\nend_header\n0 0 0 nan\n"), {"vertex 0", "nan"}));
 }
 
 /// A tetrahedron's surface less one side, an edge that hangs on it, and a lone vertex.
