@@ -39,6 +39,7 @@ const std::vector<Case>& cases() {
       {"3cross", "medial_axis", {{"input", "shape:3cross?n=8000"}}, 1},
       {"knot", "medial_axis", {{"input", "shape:knot?n=8000"}}, 0},
       {"torus_hybrid", "medial_axis", {{"input", "shape:torus?n=6000"}, {"strategy", "hybrid"}}, 0},
+      {"balls", "balls", {}, kNoTopology},  // a ring of balls and one ball apart: Betti 2 1 0
       {"box_dmt", "dmt", {{"input", "shape:box?n=2000"}}, kNoTopology},
   };
   return all;

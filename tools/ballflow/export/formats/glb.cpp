@@ -1,8 +1,10 @@
 // The layers of show/scene.hpp as glTF: one node per layer that is visible at first.
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <optional>
-#include <tuple>
+#include <utility>
 
 #include "export/formats.hpp"
 #include "export/formats/gltf_buffer.hpp"
@@ -97,7 +99,8 @@ std::array<double, 3> linear(Colour colour) {
 std::array<std::uint16_t, 4> linear16(Colour colour) {
   std::array<std::uint16_t, 4> result{0, 0, 0, 65535};
   const auto channels = linear(colour);
-  for (std::size_t k = 0; k < 3; ++k) result[k] = static_cast<std::uint16_t>(channels[k] * 65535 + 0.5);
+  for (std::size_t k = 0; k < 3; ++k)
+    result[k] = static_cast<std::uint16_t>(std::lround(channels[k] * 65535));
   return result;
 }
 
