@@ -82,6 +82,12 @@ class Union {
     });
   }
 
+  /// Calls visit(j) for all balls that the sphere of ball i may meet.
+  template <class Visit>
+  void neighbours(std::size_t i, Visit visit) const {
+    tree_.below(balls_.centers[i], balls_.radii[i], visit);
+  }
+
  private:
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
   const Balls& balls_;
@@ -181,53 +187,70 @@ struct BoundarySamples {
   }
 };
 
-/// Splits the sphere of ball i.
+/// Splits the sphere of ball i. A part is compared with the balls alone that reach into the part it was split
+/// from.
 class SphereSampler {
  public:
   SphereSampler(const Balls& balls, const Union& all, double spacing, double tolerance, Budget& budget,
-                std::size_t i, BoundarySamples& samples)
-      : all_(all),
-        spacing_(spacing),
+                Monitor& monitor, std::size_t i, BoundarySamples& samples)
+      : spacing_(spacing),
         tolerance_(tolerance),
         budget_(budget),
-        ball_(i),
+        look_(monitor),
         center_(balls.centers[i]),
         radius_(balls.radii[i]),
         samples_(samples) {
     if (radius_ == 0) {
-      const double depth = all_.depth(center_, infinity, -tolerance_, ball_);
+      const double depth = all.depth(center_, infinity, -tolerance_, i);
       if (depth >= -tolerance_) add(center_, 0, depth);
       return;
     }
+    all.neighbours(i, [&](std::size_t j) {
+      // A ball inside this one takes nothing of its sphere. There may be thousands, also equal ones.
+      const double between = distance(center_, balls.centers[j]);
+      if (j == i || between + balls.radii[j] <= radius_ + tolerance_ / 2) return;
+      near_.push_back({balls.centers[j], balls.radii[j]});
+    });
+    const std::size_t all_near = near_.size();
     for (const double x : {-1.0, 1.0}) {
       for (const double y : {-1.0, 1.0}) {
-        for (const double z : {-1.0, 1.0}) split({x, 0, 0}, {0, y, 0}, {0, 0, z}, 0.5);
+        for (const double z : {-1.0, 1.0}) split({x, 0, 0}, {0, y, 0}, {0, 0, z}, 0.5, 0, all_near);
       }
     }
   }
 
  private:
   /// A triangle of a face |x| + |y| + |z| = 1, which is seen from the centre under about the angle
-  /// weight / |centroid|^3.
-  void split(Vec3 a, Vec3 b, Vec3 c, double weight) {
+  /// weight / |centroid|^3. The balls that may contain some of it are in near_[first .. last), the end of
+  /// near_.
+  void split(Vec3 a, Vec3 b, Vec3 c, double weight, std::size_t first, std::size_t last) {
     if (++patches_ % 256 == 0) budget_.spend(256);
+    look_(last - first);
     const Vec3 centroid = (1.0 / 3) * (a + b + c), direction = unit(centroid);
     const double reach = radius_ * std::max({distance(unit(a), direction), distance(unit(b), direction),
                                              distance(unit(c), direction)});
     const Vec3 position = center_ + radius_ * direction;
     const double deep = -reach - tolerance_;
-    const double depth = all_.depth(position, infinity, deep, ball_);
-    if (depth < deep) return;  // so the whole part is inside that ball
-    if (reach <= spacing_) {
+    double depth = infinity;
+    for (std::size_t k = first; k < last; ++k) {
+      const Near other = near_[k];
+      const double d = distance(position, other.center) - other.radius;
+      depth = std::min(depth, d);
+      if (depth < deep) break;  // so the whole part is inside that ball
+      if (d < reach + tolerance_) near_.push_back(other);
+    }
+    const std::size_t end = near_.size();
+    if (depth >= deep && reach <= spacing_) {
       const double norm = length(centroid);
       add(position, radius_ * radius_ * weight / (norm * norm * norm), depth);
-      return;
+    } else if (depth >= deep) {
+      const Vec3 ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
+      split(a, ab, ca, weight / 4, last, end);
+      split(ab, b, bc, weight / 4, last, end);
+      split(ca, bc, c, weight / 4, last, end);
+      split(ab, bc, ca, weight / 4, last, end);
     }
-    const Vec3 ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
-    split(a, ab, ca, weight / 4);
-    split(ab, b, bc, weight / 4);
-    split(ca, bc, c, weight / 4);
-    split(ab, bc, ca, weight / 4);
+    near_.resize(last);
   }
 
   void add(Vec3 position, double area, double depth) {
@@ -238,10 +261,15 @@ class SphereSampler {
 
   static Vec3 unit(Vec3 v) { return (1 / length(v)) * v; }
 
-  const Union& all_;
+  struct Near {
+    Vec3 center;
+    double radius;
+  };
+
   double spacing_, tolerance_;
   Budget& budget_;
-  std::size_t ball_;
+  Lookout look_;
+  std::vector<Near> near_;  // a stack: the lists of all parts from the sphere to the one that is split
   Vec3 center_;
   double radius_;
   BoundarySamples& samples_;
@@ -268,7 +296,7 @@ BoundarySamples sample_boundary(const Balls& balls, const Union& all, double spa
   BoundarySamples samples;
   const auto parts =
       by_blocks<BoundarySamples>(balls.size(), monitor, 0, 0.3, [&](std::size_t i, BoundarySamples& part) {
-        const SphereSampler sampler(balls, all, spacing, tolerance, budget, i, part);
+        const SphereSampler sampler(balls, all, spacing, tolerance, budget, monitor, i, part);
       });
   for (const BoundarySamples& part : parts) samples.append(part);
   return samples;

@@ -50,12 +50,28 @@ class NearestTree {
     return limit;
   }
 
+  /// Calls visit(i) for all items whose value at p may be below `limit`.
+  template <class Visit>
+  void below(Vec3 p, double limit, Visit visit) const {
+    for (std::int32_t at = 0; at < static_cast<std::int32_t>(nodes_.size());) {
+      const Node& node = nodes_[static_cast<std::size_t>(at)];
+      const bool out = bound(at, p) >= limit;
+      if (!out && node.right == 0) {
+        for (std::int32_t k = node.first; k < node.last; ++k) {
+          visit(static_cast<std::size_t>(ids_[static_cast<std::size_t>(k)]));
+        }
+      }
+      at = out ? node.next : at + 1;
+    }
+  }
+
  private:
   struct Node {
     Box box;
     double slack;
     std::int32_t first, last;
     std::int32_t right;  // 0 for a leaf; the left child follows its parent
+    std::int32_t next;   // the first node behind this one and all below it
   };
 
   double bound(std::int32_t at, Vec3 p) const {
@@ -68,7 +84,7 @@ class NearestTree {
   void build(std::span<const Box> boxes, std::span<const double> slacks, std::int32_t first,
              std::int32_t last) {
     constexpr std::int32_t leaf_size = 8;
-    Node node{{}, 0, first, last, 0};
+    Node node{{}, 0, first, last, 0, 0};
     for (std::int32_t k = first; k < last; ++k) {
       const auto i = static_cast<std::size_t>(ids_[static_cast<std::size_t>(k)]);
       node.box.add(boxes[i].lower);
@@ -77,7 +93,10 @@ class NearestTree {
     }
     const std::size_t self = nodes_.size();
     nodes_.push_back(node);
-    if (last - first <= leaf_size) return;
+    if (last - first <= leaf_size) {
+      nodes_[self].next = static_cast<std::int32_t>(nodes_.size());
+      return;
+    }
     const Vec3 extent = node.box.upper - node.box.lower;
     double Vec3::*axis = &Vec3::x;
     if (extent.y > extent.*axis) axis = &Vec3::y;
@@ -92,6 +111,7 @@ class NearestTree {
     build(boxes, slacks, first, middle);
     nodes_[self].right = static_cast<std::int32_t>(nodes_.size());
     build(boxes, slacks, middle, last);
+    nodes_[self].next = static_cast<std::int32_t>(nodes_.size());
   }
 
   std::vector<Node> nodes_;
