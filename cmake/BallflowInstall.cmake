@@ -1,6 +1,6 @@
 # What `cmake --install` puts where, and the package that find_package(ballflow) finds:
 #
-#   bin/ballflow, bin/ballflow-render
+#   bin/ballflow
 #   lib/ballflow/<family>.so              node libraries; the executable looks in ../lib/ballflow
 #   include/ballflow/*                    the boundary, the SDK and the engine
 #   include/ballflow/geometry/<family>/   options structs, functions and data types of the algorithms
@@ -11,12 +11,7 @@ include(CMakePackageConfigHelpers)
 get_property(geometry_targets GLOBAL PROPERTY BALLFLOW_GEOMETRY_TARGETS)
 get_property(plugin_targets GLOBAL PROPERTY BALLFLOW_PLUGIN_TARGETS)
 get_property(viewer_target GLOBAL PROPERTY BALLFLOW_VIEWER_TARGET)
-set(programs)
-foreach(program ballflow ballflow-render)
-  if(TARGET ${program})
-    list(APPEND programs ${program})
-  endif()
-endforeach()
+set(programs ballflow)
 
 # What users run, without the tests.
 add_custom_target(ballflow_programs DEPENDS ${programs} ${plugin_targets} ${viewer_target})

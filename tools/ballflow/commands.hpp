@@ -75,12 +75,17 @@ void add_view(CLI::App& app, Common& common, Action& action);
 void add_plugins(CLI::App& app, Common& common, Action& action);
 void add_new_node(CLI::App& app, Common& common, Action& action);
 void add_explain(CLI::App& app, Common& common, Action& action);
+void add_render(CLI::App& app, Common& common, Action& action);
 void add_exec_node(CLI::App& app, Common& common, Action& action);
 void add_version(CLI::App& app, Common& common, Action& action);
 
 /// "NAME=VALUE" of an option that is repeated; throws Error that shows how it is written.
 std::pair<std::string, std::string> split_setting(const std::string& option, const std::string& text,
                                                   const std::string& example);
+
+/// True when `name` means a run and not an artifact: a folder, a file that begins as JSON does, "latest",
+/// "previous", the beginning of the id of a run, or what is no digest.
+bool is_run(Store& store, const std::string& name);
 
 /// The artifact of a digest, null when the cache does not have it. Throws Error (code store) when its file is
 /// damaged.

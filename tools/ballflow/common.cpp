@@ -3,8 +3,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 
 #include "ballflow/gc.hpp"
+#include "ballflow/history.hpp"
 #include "ballflow/text.hpp"
 #include "commands.hpp"
 
@@ -44,6 +46,23 @@ const std::atomic<bool>& cancel_on_signals() {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
   return cancel_requested;
+}
+
+bool is_run(Store& store, const std::string& name) {
+  if (name == "latest" || name == "previous") return true;
+  std::error_code ignored;
+  if (fs::is_directory(name, ignored)) return true;
+  if (fs::is_regular_file(name, ignored)) {
+    std::ifstream file(name, std::ios::binary);
+    char first = ' ';
+    file >> first;  // skips white space
+    return first == '{';
+  }
+  for (const RunInfo& run : list_runs(store)) {
+    if (run.id.starts_with(name)) return true;
+  }
+  // What looks like no digest is more likely a mistyped run: its error names the nearest ones.
+  return name.find_first_not_of("0123456789abcdef") != std::string::npos;
 }
 
 ArtifactPtr cached_artifact(const Store& store, const Digest& digest) {

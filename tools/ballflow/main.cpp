@@ -37,6 +37,7 @@ int main(int argc, char** argv) {
   cli::add_plugins(app, common, action);
   cli::add_new_node(app, common, action);
   cli::add_explain(app, common, action);
+  cli::add_render(app, common, action);
   cli::add_exec_node(app, common, action);
   cli::add_version(app, common, action);
 

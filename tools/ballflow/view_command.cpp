@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 
 #include "ballflow/gc.hpp"
 #include "ballflow/history.hpp"
@@ -22,24 +21,6 @@ struct ViewArguments {
   std::vector<std::string> names;
   std::string output = "view.html", max_size;
 };
-
-/// A folder, a file that begins as JSON does, "latest", "previous", or the beginning of the id of a run.
-bool is_run(Store& store, const std::string& name) {
-  if (name == "latest" || name == "previous") return true;
-  std::error_code ignored;
-  if (fs::is_directory(name, ignored)) return true;
-  if (fs::is_regular_file(name, ignored)) {
-    std::ifstream file(name, std::ios::binary);
-    char first = ' ';
-    file >> first;  // skips white space
-    return first == '{';
-  }
-  for (const RunInfo& run : list_runs(store)) {
-    if (run.id.starts_with(name)) return true;
-  }
-  // What looks like no digest is more likely a mistyped run: its error names the nearest ones.
-  return name.find_first_not_of("0123456789abcdef") != std::string::npos;
-}
 
 std::uint64_t page_bytes(const std::string& size) {
   if (size.empty()) return show::default_page_bytes;

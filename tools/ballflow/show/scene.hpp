@@ -13,6 +13,8 @@
 
 #include "ballflow/artifact.hpp"
 #include "types/array.hpp"
+#include "types/point_set.hpp"
+#include "types/triangle_mesh.hpp"
 #include "types/vec3.hpp"
 
 namespace ballflow::show {
@@ -41,6 +43,7 @@ struct Layer {
   std::string colour_by;  // name of the attribute that is shown at first; empty for one plain colour
   double opacity = 1;     // at first; in (0, 1]
   bool visible = true;    // at first
+  bool smooth = false;  // triangles stand for a smooth surface, apart from sharp edges; else they are facets
 
   /// Points, balls, segments or triangles.
   std::size_t elements() const;
@@ -54,6 +57,10 @@ std::vector<std::string> shown_types();
 /// The layers of an artifact, those without elements left out. Throws Error: usage when its type has none,
 /// store when its arrays break the type.
 std::vector<Layer> layers_of(const Artifact& artifact);
+
+/// The layer of a PointSet and of a TriangleMesh, also of those that are no artifacts.
+Layer layer_of(const geometry::PointSet& points);
+Layer layer_of(const geometry::TriangleMesh& mesh);
 
 /// Bounding box of everything in the layers, balls with their radii.
 geometry::Box bounding_box(const std::vector<Layer>& layers);

@@ -4,17 +4,18 @@
 #include "types/artifact_types.hpp"
 
 namespace ballflow::show {
-namespace {
 
-std::vector<Layer> layers(const Artifact& artifact) {
-  Layer points;
-  points.name = "points";
-  points.vertices = typed<geometry::PointSet>(artifact).points;
-  return {points};
+Layer layer_of(const geometry::PointSet& points) {
+  Layer layer;
+  layer.name = "points";
+  layer.vertices = points.points;
+  return layer;
 }
 
-}  // namespace
-
-TypeLayers point_set_layers() { return {"PointSet", layers}; }
+TypeLayers point_set_layers() {
+  return {"PointSet", [](const Artifact& artifact) {
+            return std::vector{layer_of(typed<geometry::PointSet>(artifact))};
+          }};
+}
 
 }  // namespace ballflow::show

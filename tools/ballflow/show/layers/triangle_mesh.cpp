@@ -4,10 +4,8 @@
 #include "types/artifact_types.hpp"
 
 namespace ballflow::show {
-namespace {
 
-std::vector<Layer> layers(const Artifact& artifact) {
-  const auto mesh = typed<geometry::TriangleMesh>(artifact);
+Layer layer_of(const geometry::TriangleMesh& mesh) {
   Layer surface;
   surface.name = "mesh";
   surface.shape = Shape::triangles;
@@ -18,11 +16,14 @@ std::vector<Layer> layers(const Artifact& artifact) {
         {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(c)});
   }
   surface.opacity = 0.3;
-  return {surface};
+  surface.smooth = true;
+  return surface;
 }
 
-}  // namespace
-
-TypeLayers triangle_mesh_layers() { return {"TriangleMesh", layers}; }
+TypeLayers triangle_mesh_layers() {
+  return {"TriangleMesh", [](const Artifact& artifact) {
+            return std::vector{layer_of(typed<geometry::TriangleMesh>(artifact))};
+          }};
+}
 
 }  // namespace ballflow::show
