@@ -47,6 +47,7 @@ constexpr std::string_view action_magic = "bfaction", memo_magic = "bfdigest";
 constexpr std::uint32_t action_format = 1, memo_format = 1;
 constexpr std::uint64_t entry_limit = 64u << 20;  // no honest entry comes near it
 constexpr std::size_t checksum_size = 16;
+constexpr std::size_t write_at_once = 8 << 20;
 constexpr std::int64_t settled_after = 2'000'000'000;  // ns; no file system stamps coarser than 2 s (FAT)
 constexpr mode_t folder_mode = 0755, file_mode = 0444, private_mode = 0700;
 constexpr std::uint64_t account_at = 64u
@@ -467,8 +468,9 @@ struct Store::Impl {
     }
   };
 
+  /// -ECANCELED when it was given up.
   int write_draft(const std::vector<std::span<const std::byte>>& pieces, bool sync,
-                  std::optional<Draft>& draft) {
+                  const std::function<bool()>& give_up, std::optional<Draft>& draft) {
     int error = 0;
     OpenFile file;
     for (int attempt = 0; attempt < 2 && !file.is_open(); ++attempt) {
@@ -489,7 +491,8 @@ struct Store::Impl {
     if (!file.is_open()) return file.get();
     for (std::span<const std::byte> piece : pieces) {
       while (!piece.empty()) {
-        const ssize_t written = files->write(file.get(), piece.data(), piece.size());
+        if (give_up && give_up()) return -ECANCELED;
+        const ssize_t written = files->write(file.get(), piece.data(), std::min(piece.size(), write_at_once));
         if (written <= 0) return written < 0 ? static_cast<int>(written) : -EIO;
         piece = piece.subspan(static_cast<std::size_t>(written));
       }
@@ -500,10 +503,12 @@ struct Store::Impl {
 
   /// Writes a file under its hexadecimal name. Without `replace` a file that is there already wins.
   bool publish(const OpenFile& top, const std::string& folder, const std::string& hex,
-               const std::vector<std::span<const std::byte>>& pieces, bool sync, bool replace) {
+               const std::vector<std::span<const std::byte>>& pieces, bool sync, bool replace,
+               const std::function<bool()>& give_up = {}) {
     const std::string shown = folder + '/' + shard_of(hex) + '/' + rest_of(hex);
     std::optional<Draft> draft;
-    int result = write_draft(pieces, sync, draft);
+    int result = write_draft(pieces, sync, give_up, draft);
+    if (result == -ECANCELED) return false;
     if (result < 0) return failed(shown, result);
     const OpenFile shard = open_shard(top, hex, true);
     if (!shard.is_open()) return failed(shown, shard.get());
@@ -726,11 +731,12 @@ ArtifactPtr Store::load(const OutputEntry& output) {
   return artifact;
 }
 
-bool Store::put_blob(const Artifact& artifact, bool sync) {
+bool Store::put_blob(const Artifact& artifact, bool sync, const std::function<bool()>& give_up) {
   if (!impl_->writing) return false;
   const Impl::Fetched there = impl_->fetch(entry_of(artifact));
   if (there.artifact != nullptr) return true;
-  return impl_->publish(impl_->cas, "cas", artifact.digest().hex(), artifact.pieces(), sync, there.damaged);
+  return impl_->publish(impl_->cas, "cas", artifact.digest().hex(), artifact.pieces(), sync, there.damaged,
+                        give_up);
 }
 
 Digest Store::file_digest(const std::string& path) {
@@ -837,7 +843,7 @@ bool Store::put_run(const std::string& id, const std::vector<std::pair<std::stri
     if (!folder.is_open()) return false;
     for (const auto& [name, text] : files) {
       std::optional<Impl::Draft> draft;
-      if (impl_->write_draft({std::as_bytes(std::span(text))}, false, draft) < 0) return false;
+      if (impl_->write_draft({std::as_bytes(std::span(text))}, false, {}, draft) < 0) return false;
       if (impl_->files->rename(draft->place->folder.get(), draft->name, folder.get(), name, true) < 0)
         return false;
       draft->gone = true;

@@ -101,8 +101,9 @@ class Store {
   /// is moved to quarantine first. (A blob that is what its name says, but not what `output` says, stays.)
   ArtifactPtr load(const OutputEntry& output);
   /// Writes the blob unless a good one is there; a damaged one is replaced. `sync`: flush to the disk before
-  /// it is published. False when it could not be written.
-  bool put_blob(const Artifact& artifact, bool sync);
+  /// it is published. `give_up` is polled every few megabytes. False when it could not be written or was
+  /// given up; nothing of it is left then.
+  bool put_blob(const Artifact& artifact, bool sync, const std::function<bool()>& give_up = {});
 
   /// SHA-256 of a file's content, memoised by device, inode, size, mtime and ctime (not trusted when the
   /// file is younger than 2 s). Throws Error when it is no regular file, cannot be read or keeps changing.

@@ -297,6 +297,20 @@ TEST_F(StoreTest, a_store_of_the_superuser_serves_others_read_only) {
   EXPECT_EQ(status, 0);
 }
 
+TEST_F(StoreTest, a_large_blob_that_is_given_up_leaves_nothing) {
+  const auto store = open();
+  const ArtifactPtr large = make_probe(1, 3'000'000);  // 27 MB
+  int looks = 0;
+  EXPECT_FALSE(store->put_blob(*large, true, [&looks] { return ++looks == 3; }));
+  EXPECT_EQ(looks, 3);
+  EXPECT_EQ(store->load(entry_for(*large)), nullptr);
+  EXPECT_EQ(files_below(root + "/tmp"), 0u);
+  EXPECT_EQ(files_below(root + "/cas"), 0u);
+  EXPECT_EQ(store->trouble(), "");
+  EXPECT_TRUE(store->put_blob(*large, true, [] { return false; }));
+  EXPECT_NE(store->load(entry_for(*large)), nullptr);
+}
+
 TEST_F(StoreTest, a_full_disk_means_not_cached) {
   const auto store = open();
   files->fault = [](const std::string& call) { return call == "write" ? -ENOSPC : 0; };
