@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "ballflow/error.hpp"
+#include "canonical_json.hpp"
 
 namespace ballflow {
 namespace {
@@ -27,7 +28,6 @@ using SortedJson = nlohmann::json;  // objects are std::map: keys in byte order
 constexpr std::uint64_t header_limit = 16u << 20;
 constexpr std::size_t data_alignment = 64;
 constexpr std::size_t name_limit = 255;
-constexpr int depth_limit = 64;
 constexpr char format_version[] = "1";
 
 struct DType {
@@ -46,13 +46,6 @@ constexpr std::array<DType, 7> dtypes{{{BF_F64, 8, "f64", "F64"},
 const DType* find_dtype(std::uint32_t id) {
   const auto* found = std::find_if(dtypes.begin(), dtypes.end(), [id](const DType& d) { return d.id == id; });
   return found == dtypes.end() ? nullptr : found;
-}
-
-/// A piece of foreign text for a message: shortened, unprintable characters replaced.
-std::string shown_text(std::string_view text) {
-  std::string shown = "\"";
-  for (const char c : text.substr(0, 40)) shown += c >= ' ' && c <= '~' && c != '"' ? c : '?';
-  return shown + (text.size() > 40 ? "...\"" : "\"");
 }
 
 SortedJson parse(std::string_view text, int max_depth, ExitCode code) {
@@ -82,98 +75,6 @@ SortedJson parse(std::string_view text, int max_depth, ExitCode code) {
     return SortedJson::parse(text.begin(), text.end(), watch);
   } catch (const SortedJson::exception&) {
     throw Error(code, "not valid JSON: " + shown_text(text));
-  }
-}
-
-void write_string(std::string_view text, std::string& out) {
-  static constexpr char digits[] = "0123456789abcdef";
-  out += '"';
-  for (const char c : text) {
-    switch (c) {
-      case '"':
-        out += "\\\"";
-        break;
-      case '\\':
-        out += "\\\\";
-        break;
-      case '\b':
-        out += "\\b";
-        break;
-      case '\f':
-        out += "\\f";
-        break;
-      case '\n':
-        out += "\\n";
-        break;
-      case '\r':
-        out += "\\r";
-        break;
-      case '\t':
-        out += "\\t";
-        break;
-      default:
-        if (static_cast<unsigned char>(c) < 0x20) {
-          out += "\\u00";
-          out += digits[c >> 4];
-          out += digits[c & 15];
-        } else {
-          out += c;
-        }
-    }
-  }
-  out += '"';
-}
-
-template <class Number>
-void write_number(Number value, std::string& out) {
-  std::array<char, 64> text;
-  const char* end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  const std::string_view shown(text.data(), static_cast<std::size_t>(end - text.data()));
-  out += shown;
-  if (std::is_floating_point_v<Number> && shown.find_first_of(".e") == std::string_view::npos) out += ".0";
-}
-
-void write_canonical(const SortedJson& value, std::string& out) {
-  switch (value.type()) {
-    case SortedJson::value_t::object: {
-      char separator = '{';
-      for (const auto& [key, member] : value.items()) {
-        out += separator;
-        separator = ',';
-        write_string(key, out);
-        out += ':';
-        write_canonical(member, out);
-      }
-      out += separator == '{' ? "{}" : "}";
-      break;
-    }
-    case SortedJson::value_t::array: {
-      char separator = '[';
-      for (const SortedJson& element : value) {
-        out += separator;
-        separator = ',';
-        write_canonical(element, out);
-      }
-      out += separator == '[' ? "[]" : "]";
-      break;
-    }
-    case SortedJson::value_t::string:
-      write_string(value.get_ref<const std::string&>(), out);
-      break;
-    case SortedJson::value_t::boolean:
-      out += value.get<bool>() ? "true" : "false";
-      break;
-    case SortedJson::value_t::number_integer:
-      write_number(value.get<std::int64_t>(), out);
-      break;
-    case SortedJson::value_t::number_unsigned:
-      write_number(value.get<std::uint64_t>(), out);
-      break;
-    case SortedJson::value_t::number_float:
-      write_number(value.get<double>(), out);
-      break;
-    default:
-      out += "null";
   }
 }
 
@@ -338,9 +239,6 @@ ArrayPlace read_array(const std::string& name, const SortedJson& entry) {
   return place;
 }
 
-/// Thrown out of the computation of a digest that nobody wants any more.
-struct GivenUp {};
-
 std::string system_message(int error) { return std::generic_category().message(error); }
 
 }  // namespace
@@ -359,13 +257,6 @@ std::uint32_t dtype_from_name(std::string_view name) {
   const auto* found =
       std::find_if(dtypes.begin(), dtypes.end(), [&](const DType& d) { return d.name == name; });
   return found == dtypes.end() ? 0 : found->id;
-}
-
-std::string canonical_json(std::string_view text, ExitCode code) {
-  const SortedJson value = parse(text, depth_limit, code);
-  std::string canonical;
-  write_canonical(value, canonical);
-  return canonical;
 }
 
 std::uint64_t NamedArray::elements() const { return byte_count(shape, 1).value_or(0); }
@@ -470,7 +361,7 @@ std::shared_ptr<const Artifact> Artifact::decode(std::span<const std::byte> file
     refuse(error.what());
   }
   if (artifact->header_ != text) refuse("its header is not in canonical form");
-  artifact->settle(checksum_of(file.data(), file.size()));
+  artifact->checksum_ = checksum_of(file.data(), file.size());
   artifact->file_size_ = file.size();
   artifact->owner_ = std::move(owner);
   return artifact;
@@ -511,64 +402,44 @@ const NamedArray* Artifact::find(std::string_view name) const {
 }
 
 const Digest& Artifact::digest() const {
-  compute_digest(nullptr);
-  return digest_;
+  hash(nullptr);
+  return *digest_;
 }
 
 bool Artifact::hash(const std::function<bool()>& give_up) const {
-  try {
-    compute_digest(&give_up);
-    return true;
-  } catch (const GivenUp&) {
-    return false;
+  // Who wants the digest soon wants the checksum: both sums of a chunk while it is in the processor's cache.
+  constexpr std::size_t chunk = 128 << 10, chunks_between_looks = 64;
+  const std::lock_guard lock(sums_mutex_);
+  if (digest_) return true;
+  Hasher digest;
+  Checksummer checksum;
+  std::size_t chunks = 0;
+  for (const std::span<const std::byte> piece : pieces()) {
+    for (std::size_t at = 0; at < piece.size(); at += chunk) {
+      if (++chunks % chunks_between_looks == 0 && give_up && give_up()) return false;
+      const std::size_t size = std::min(chunk, piece.size() - at);
+      if (!checksum_) checksum.add(piece.data() + at, size);
+      digest.add(piece.data() + at, size);
+    }
   }
-}
-
-void Artifact::compute_digest(const std::function<bool()>* give_up) const {
-  // An exception leaves the flags unset: who asks next begins anew.
-  std::call_once(digest_once_, [&] {
-    // Who wants the digest soon wants the checksum: both sums of a chunk while it is in the processor's
-    // cache.
-    constexpr std::size_t chunk = 128 << 10, chunks_between_looks = 64;
-    Hasher digest;
-    std::size_t chunks = 0;
-    const auto add = [&](Checksummer* checksum) {
-      for (const std::span<const std::byte> piece : pieces()) {
-        for (std::size_t at = 0; at < piece.size(); at += chunk) {
-          if (++chunks % chunks_between_looks == 0 && give_up != nullptr && (*give_up)()) throw GivenUp();
-          const std::size_t size = std::min(chunk, piece.size() - at);
-          if (checksum != nullptr) checksum->add(piece.data() + at, size);
-          digest.add(piece.data() + at, size);
-        }
-      }
-    };
-    bool both = false;
-    std::call_once(checksum_once_, [&] {
-      Checksummer checksum;
-      add(&checksum);
-      checksum_ = checksum.finish();
-      both = true;
-    });
-    if (!both) add(nullptr);
-    digest_ = digest.finish();
-  });
+  if (!checksum_) checksum_ = checksum.finish();
+  digest_ = digest.finish();
+  return true;
 }
 
 Checksum Artifact::checksum() const {
-  std::call_once(checksum_once_, [this] {
+  const std::lock_guard lock(sums_mutex_);
+  if (!checksum_) {
     Checksummer checksum;
     for (const std::span<const std::byte> piece : pieces()) checksum.add(piece.data(), piece.size());
     checksum_ = checksum.finish();
-  });
-  return checksum_;
+  }
+  return *checksum_;
 }
 
 void Artifact::settle(const Digest& known) const {
-  std::call_once(digest_once_, [&] { digest_ = known; });
-}
-
-void Artifact::settle(const Checksum& known) const {
-  std::call_once(checksum_once_, [&] { checksum_ = known; });
+  const std::lock_guard lock(sums_mutex_);
+  if (!digest_) digest_ = known;
 }
 
 std::vector<std::span<const std::byte>> Artifact::pieces() const {

@@ -52,7 +52,7 @@ ArtifactPtr Runner::Impl::artifact(const EdgeRef& output) {
 void Runner::Impl::check_files(std::size_t i) {
   const DagNode& node = dag_.nodes[i];
   const std::optional<std::string> file = file_read_by(node);
-  if (!file || key_of(node).key == states_[i]->key->key) return;
+  if (!file || key_of(node).key == states_[i]->key) return;
   throw Error(ExitCode::node_failed, *file + " changed while the run was reading it",
               "wait until its writer is done, then run again");
 }
@@ -130,24 +130,26 @@ void Runner::Impl::progress(std::size_t i, double fraction) {
 /// Stores the artifacts of a finished node and then its entry.
 std::vector<OutputEntry> Runner::Impl::publish(std::size_t i, const NodeRunOutcome& outcome) {
   ActionEntry entry;
-  entry.manifest = states_[i]->key->manifest;
+  entry.manifest = result_.nodes[i].manifest;
   entry.warnings = outcome.warnings;
   entry.seconds = outcome.seconds;
   entry.cpu_seconds = outcome.cpu_seconds;
   for (const auto& [port, artifact] : outcome.outputs) {
     entry.outputs.push_back(output_entry(port, *artifact));
     if (store_->read_only() || !worth_storing(artifact->file_size(), outcome.seconds)) continue;
-    if (cancelled() && artifact->file_size() > worth_waiting_for) continue;
+    const bool large = artifact->file_size() > worth_waiting_for;
+    const auto give_up = [this, large] { return large && cancelled(); };
+    if (give_up()) continue;
     Event event{Event::Kind::cache_write, i};
     event.text = dag_.nodes[i].path + "." + port;
     event.bytes = artifact->file_size();
     const auto start = Clock::now();
-    store_->put_blob(*artifact, outcome.seconds > sync_seconds);
+    store_->put_blob(*artifact, outcome.seconds > sync_seconds, give_up);
     event.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     emit(std::move(event));
   }
-  store_->put_action(states_[i]->key->key, entry, outcome.seconds > sync_seconds);
-  return entry.outputs;
+  store_->put_action(*states_[i]->key, entry, outcome.seconds > sync_seconds);
+  return std::move(entry.outputs);
 }
 
 ArtifactPtr Runner::Impl::load(const EdgeRef& edge, const OutputEntry& entry, std::size_t reader) {
@@ -209,8 +211,8 @@ ArtifactPtr Runner::Impl::ensure(const EdgeRef& edge, std::size_t reader) {
   if (!equal) {
     // Kept here too: the store may be read-only.
     const std::lock_guard run_lock(mutex_);
-    replaced_[state.key->key] = {state.key->manifest, outputs, outcome.warnings, outcome.seconds,
-                                 outcome.cpu_seconds};
+    replaced_[*state.key] = {result.manifest, outputs, outcome.warnings, outcome.seconds,
+                             outcome.cpu_seconds};
     throw PlanIsVoid();
   }
   {

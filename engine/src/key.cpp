@@ -5,13 +5,17 @@
 #include <cctype>
 #include <filesystem>
 
+#include "canonical_json.hpp"
+
 namespace ballflow {
 namespace {
 
 constexpr int key_format = 1;
 
 void add_u64(std::string& bytes, std::uint64_t value) {
-  for (int i = 0; i < 8; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xff);
+  char little_endian[8];
+  for (int i = 0; i < 8; ++i) little_endian[i] = static_cast<char>(value >> (8 * i) & 0xff);
+  bytes.append(little_endian, sizeof little_endian);
 }
 
 void add_tag(std::string& bytes, char tag) { bytes += tag; }
@@ -128,12 +132,6 @@ Json body_manifest(const Dag& body, Store& store) {
   return {{"nodes", std::move(nodes)}, {"states", std::move(states)}};
 }
 
-std::string json_string(std::string_view text) {
-  const bool plain = std::all_of(text.begin(), text.end(),
-                                 [](char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\\'; });
-  return plain ? '"' + std::string(text) + '"' : Json(text).dump();
-}
-
 }  // namespace
 
 /// Writes a manifest and the bytes that are hashed for it at once, because a Json object of it would cost
@@ -148,26 +146,61 @@ ActionKey action_key(const DagNode& node, const std::map<std::string, OutputEntr
   }
   const Json body = node.loop ? body_manifest(node.loop->body, store) : Json();
 
-  std::string text = "{\"format\":" + std::to_string(key_format) + ",\"node\":" + json_string(decl.id) +
-                     ",\"version\":" + std::to_string(decl.version) + ",\"libraries\":{";
+  std::string text;
+  text.reserve(512);
+  const auto add_member = [&text](std::string_view name) {
+    if (text.back() != '{') text += ',';
+    write_string(name, text);
+    text += ':';
+  };
+  text += '{';
+  add_member("format");
+  write_number(key_format, text);
+  add_member("node");
+  write_string(decl.id, text);
+  add_member("version");
+  write_number(decl.version, text);
+  add_member("libraries");
+  text += '{';
   for (const auto& [name, version] : decl.libraries) {
-    text += (text.back() == '{' ? "" : ",") + json_string(name) + ":" + json_string(version);
+    add_member(name);
+    write_string(version, text);
   }
-  text += "},\"params\":{";
-  for (const auto& [name, value] : params)
-    text += (text.back() == '{' ? "" : ",") + json_string(name) + ":" + value.dump();
-  text += "}";
-  if (node.loop) text += ",\"body\":" + body.dump();
-  text += ",\"seed\":" + (decl.uses_seed ? std::to_string(seed) : "null") + ",\"inputs\":{";
+  text += '}';
+  add_member("params");
+  text += '{';
+  for (const auto& [name, value] : params) {
+    add_member(name);
+    text += value.dump();
+  }
+  text += '}';
+  if (node.loop) {
+    add_member("body");
+    text += body.dump();
+  }
+  add_member("seed");
+  if (decl.uses_seed) {
+    write_number(seed, text);
+  } else {
+    text += "null";
+  }
+  add_member("inputs");
+  text += '{';
   for (const auto& [port, entry] : inputs) {
-    text += (text.back() == '{' ? "" : ",") + json_string(port) + ":{\"type\":" + json_string(entry.type) +
-            ",\"version\":" + std::to_string(entry.type_version) + ",\"digest\":\"" + entry.digest.hex() +
-            "\"}";
+    add_member(port);
+    text += '{';
+    add_member("type");
+    write_string(entry.type, text);
+    add_member("version");
+    write_number(entry.type_version, text);
+    add_member("digest");
+    write_string(entry.digest.hex(), text);
+    text += '}';
   }
   text += "}}";
 
   std::string bytes;
-  bytes.reserve(text.size() + 512);
+  bytes.reserve(512);
   const auto add_string = [&bytes](std::string_view value) {
     add_tag(bytes, 's');
     add_text(bytes, value);

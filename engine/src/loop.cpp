@@ -130,7 +130,7 @@ class LoopRun {
 }  // namespace
 
 NodeRunOutcome run_loop(const NodeRunRequest& request) {
-  return run_in_arena(request, [&] { return LoopRun(request).run(); });
+  return run_alone(request, [&] { return LoopRun(request).run(); });
 }
 
 std::optional<std::string> file_read_by(const DagNode& node) {

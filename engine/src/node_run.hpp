@@ -37,17 +37,17 @@ struct NodeRunOutcome {
   std::string cause, hint;                 // when failed
   std::optional<InnerCall> failed_call;    // when failed in the body of a loop
   std::optional<std::int64_t> iterations;  // of a loop
-  double seconds = 0, cpu_seconds = 0;
+  double seconds = 0, cpu_seconds = 0;     // the latter to 0.1 ms
 };
 
-/// Runs the node inside a task arena of its own, so that its parallel loops never pick up work of another
-/// node while they wait (work stealing across nodes can deadlock).
+/// Runs the node apart from others: its parallel loops never pick up work of another node while they wait
+/// (work stealing across nodes can deadlock). With several threads it gets a task arena of its own.
 NodeRunOutcome run_node(const NodeRunRequest& request);
 
-/// The same in the arena of the caller, without times; outputs are not hashed.
+/// The same within what already runs apart, without times; outputs are not hashed.
 NodeRunOutcome call_node(const NodeRunRequest& request);
 
-/// Does `work` for `request` in an arena of its own, hashes its outputs, and takes its times.
-NodeRunOutcome run_in_arena(const NodeRunRequest& request, const std::function<NodeRunOutcome()>& work);
+/// Does `work` for `request` like run_node: apart from other nodes, outputs hashed, times taken.
+NodeRunOutcome run_alone(const NodeRunRequest& request, const std::function<NodeRunOutcome()>& work);
 
 }  // namespace ballflow

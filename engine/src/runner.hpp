@@ -6,7 +6,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <cstring>
 #include <mutex>
 #include <unordered_map>
 
@@ -41,20 +40,13 @@ class Runner::Impl {
   struct State {
     std::mutex mutex;                         // held while the node's artifacts are made again
     std::map<std::string, ArtifactPtr> held;  // by port; guarded by mutex
-    std::optional<ActionKey> key;
+    std::optional<Digest> key;
     std::vector<std::size_t> consumers;  // needed nodes that read an output, each once
     std::size_t inputs_missing = 0;      // guarded by mutex_
     std::size_t consumers_left = 0;      // guarded by mutex_
     std::uint64_t admitted = 0;          // bytes taken from the budget; guarded by mutex_
     bool waited = false;                 // for memory; guarded by mutex_
     std::atomic<std::int64_t> last_progress{0};
-  };
-  struct DigestHash {  // any 8 bytes of a digest are as good as random
-    std::size_t operator()(const Digest& digest) const {
-      std::size_t bits = 0;
-      std::memcpy(&bits, digest.bytes.data(), sizeof bits);
-      return bits;
-    }
   };
   struct Flight {
     std::size_t leader;
@@ -116,7 +108,7 @@ class Runner::Impl {
   tbb::task_group* group_ = nullptr;
   std::mutex mutex_, events_mutex_;
   std::set<std::size_t> force_;  // not yet computed; guarded by mutex_
-  std::unordered_map<Digest, Flight, DigestHash> flights_;
+  std::unordered_map<Digest, Flight> flights_;
   std::vector<std::size_t> deferred_;
   std::map<Digest, ActionEntry> replaced_;      // of nodes that turned out not to be deterministic
   std::set<std::size_t> nondeterministic_;      // guarded by mutex_

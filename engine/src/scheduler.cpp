@@ -119,6 +119,7 @@ bool Runner::Impl::run_once() {
   states_.clear();
   for (std::size_t i = 0; i < dag_.nodes.size(); ++i) states_.push_back(std::make_unique<State>());
   flights_.clear();
+  flights_.reserve(dag_.nodes.size());
   deferred_.clear();
   memory_used_ = 0;
   running_ = 0;
@@ -237,12 +238,13 @@ void Runner::Impl::resolve(std::size_t i) {
 
   const bool forced = options_.force.count(i) != 0 && take_force(i);
   if (!state.key) {
-    state.key = key_of(node);
-    result_.nodes[i].manifest = state.key->manifest;
+    ActionKey made = key_of(node);
+    state.key = made.key;
+    result_.nodes[i].manifest = std::move(made.manifest);
     std::optional<std::size_t> done;
     if (!forced) {
       const std::lock_guard lock(mutex_);
-      const auto [flight, first] = flights_.try_emplace(state.key->key, Flight{i, {}});
+      const auto [flight, first] = flights_.try_emplace(*state.key, Flight{i, {}});
       if (!first) {
         const std::size_t leader = flight->second.leader;
         const NodeStatus status = result_.nodes[leader].status;
@@ -273,7 +275,7 @@ void Runner::Impl::resolve(std::size_t i) {
   try {
     // Another process may be computing the same key; then its result becomes a hit here.
     bool told = false;
-    const auto lock = store_->lock(state.key->key, [&] {
+    const auto lock = store_->lock(*state.key, [&] {
       if (!told) {
         Event event{Event::Kind::node_waiting, i};
         event.text = "another process computes the same";
@@ -301,7 +303,7 @@ bool Runner::Impl::take_force(std::size_t i) {
 
 /// From this run, else from the store.
 std::optional<ActionEntry> Runner::Impl::entry_of(std::size_t i) {
-  const Digest& key = states_[i]->key->key;
+  const Digest& key = *states_[i]->key;
   {
     const std::lock_guard lock(mutex_);
     if (const auto found = replaced_.find(key); found != replaced_.end()) return found->second;
@@ -354,7 +356,7 @@ void Runner::Impl::dismiss(std::size_t i) {
 /// one after the other.
 std::uint64_t Runner::Impl::memory_estimate(std::size_t i) {
   std::uint64_t most = 0;
-  std::set<std::size_t> seen{i};
+  std::set<std::size_t> seen;
   std::vector<std::size_t> left{i};
   while (!left.empty()) {
     const DagNode& node = dag_.nodes[left.back()];
@@ -402,7 +404,7 @@ std::string Runner::Impl::why(std::size_t i) const {
   const auto before = earlier_.find(dag_.nodes[i].path);
   if (before == earlier_.end()) return "never ran here";
   std::string text;
-  for (const std::string& difference : manifest_differences(before->second, states_[i]->key->manifest)) {
+  for (const std::string& difference : manifest_differences(before->second, result_.nodes[i].manifest)) {
     text += (text.empty() ? "" : "; ") + difference;
   }
   return text.empty() ? "its entry is no longer in the cache" : text;
@@ -426,7 +428,7 @@ void Runner::Impl::settle(std::size_t i, NodeStatus status, const std::string& r
   {
     const std::lock_guard lock(mutex_);
     if (states_[i]->key) {
-      const auto flight = flights_.find(states_[i]->key->key);
+      const auto flight = flights_.find(*states_[i]->key);
       if (flight != flights_.end() && flight->second.leader == i) followers.swap(flight->second.followers);
     }
     for (const std::size_t consumer : states_[i]->consumers) {

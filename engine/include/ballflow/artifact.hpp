@@ -97,18 +97,16 @@ class Artifact {
  private:
   friend class Store;  // knows the digest of what it loads
   Artifact() = default;
-  void compute_digest(const std::function<bool()>* give_up) const;
   void settle(const Digest& known) const;
-  void settle(const Checksum& known) const;
 
   std::string type_;
   int version_ = 0;
   std::vector<NamedArray> arrays_;  // in the order of the file
   std::string summary_;
   std::string header_;  // length, JSON and padding
-  mutable std::once_flag digest_once_, checksum_once_;
-  mutable Digest digest_;
-  mutable Checksum checksum_;
+  mutable std::mutex sums_mutex_;
+  mutable std::optional<Digest> digest_;  // once it was asked for; never changes then, like the checksum
+  mutable std::optional<Checksum> checksum_;
   std::uint64_t file_size_ = 0;
   std::shared_ptr<const void> owner_;
 };

@@ -330,6 +330,32 @@ TEST_F(RunTest, nodes_whose_estimates_exceed_the_budget_together_never_run_toget
   EXPECT_EQ(toy::counters.heavy_most, 1);
 }
 
+TEST_F(RunTest, a_node_takes_the_cpu_time_of_all_its_threads) {
+  Dag dag;
+  const auto busy = node(dag, "busy", "Busy");
+  dag.outputs.push_back({"out", "", {busy, "numbers"}});
+  for (const unsigned count : {1u, 2u, 4u}) {
+    RunOptions options;
+    options.threads = count;
+    options.force = {busy};
+    Runner runner(dag, registry, store(), options, events);
+    const RunResult& result = runner.run();
+    ASSERT_EQ(result.status, ExitCode::ok);
+    double burnt = 0;
+    const ArtifactPtr numbers = runner.artifact({busy, "numbers"});
+    const auto* const parts = static_cast<const double*>(numbers->arrays()[0].data);
+    for (std::size_t i = 0; i < 4; ++i) burnt += parts[i];
+    EXPECT_GE(burnt, 0.04);
+    EXPECT_GE(result.nodes[busy].cpu_seconds, burnt - 1e-3) << count;
+    EXPECT_LE(result.nodes[busy].cpu_seconds, 2 * burnt + 0.05)
+        << count;  // threads may look for work in vain
+    EXPECT_LE(result.nodes[busy].cpu_seconds, result.cpu_seconds + 1e-3) << count;
+    if (count == 1) {
+      EXPECT_LE(result.nodes[busy].cpu_seconds, result.nodes[busy].seconds + 1e-3);
+    }
+  }
+}
+
 TEST_F(RunTest, two_runs_at_once_on_one_store_compute_everything_once) {
   Dag dag;
   const auto source = node(dag, "source", "Source");

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <fstream>
 #include <functional>
 #include <limits>
@@ -211,6 +213,29 @@ struct Threads {
   }
 };
 
+/// Keeps several threads busy, and says for how long by their own clocks.
+struct Busy {
+  Out<Numbers> numbers;
+  static void declare(NodeDecl<Busy>& d) {
+    d.id("Busy", 1).summary("Takes 40 ms of CPU time, in four parts.");
+    d.output("numbers", &Busy::numbers).doc("4 x seconds");
+  }
+  void run(RunContext&) {
+    const auto now = [] {
+      timespec t{};
+      clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+      return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+    };
+    std::vector<double> seconds(4);
+    tbb::parallel_for(std::size_t{0}, seconds.size(), [&](std::size_t i) {
+      const double start = now();
+      while ((seconds[i] = now() - start) < 0.01) {
+      }
+    });
+    numbers = Numbers{std::move(seconds)};
+  }
+};
+
 /// Hands over what its type forbids.
 struct Negative {
   Out<Numbers> numbers;
@@ -276,7 +301,8 @@ struct Babble {
 
 inline const bf_plugin& plugin() {
   static const std::vector<const bf_node*> nodes =
-      node_entries<Source, Add, Round, Slow, Fail, Step, Noisy, Threads, Negative, Heavy, FromFile, Babble>();
+      node_entries<Source, Add, Round, Slow, Fail, Step, Noisy, Threads, Busy, Negative, Heavy, FromFile,
+                   Babble>();
   static const std::vector<const bf_type*> types = type_entries<Numbers>();
   static const bf_plugin plugin = {sizeof(bf_plugin),  BALLFLOW_ABI_VERSION, detail::bytes("toy"),
                                    detail::bytes("1"), types.data(),         types.size(),

@@ -8,6 +8,9 @@
 #include <cstring>
 #include <filesystem>
 #include <functional>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <random>
 #include <thread>
 
 #include "ballflow/error.hpp"
@@ -390,6 +393,67 @@ TEST(canonical_json, has_one_spelling) {
     EXPECT_EQ(std::strtod(once.c_str(), nullptr), std::strtod(number.c_str(), nullptr)) << number;
     EXPECT_NE(once.find_first_of(".e"), std::string::npos) << number << " stays a double, not " << once;
   }
+}
+
+TEST(canonical_json, sorts_members_at_every_depth) {
+  // nlohmann's usual tree sorts its keys; its text is canonical where there are no doubles.
+  std::mt19937 random(11);
+  const auto below = [&random](unsigned n) { return static_cast<unsigned>(random() % n); };
+  const std::function<std::string(int)> value = [&](int depth) -> std::string {
+    switch (below(depth > 0 ? 6 : 4)) {
+      case 0:
+        return std::to_string(static_cast<int>(below(2000)) - 1000);
+      case 1:
+        return "\"s" + std::to_string(below(100)) + ",}\"";
+      case 2:
+        return "null";
+      case 3:
+        return below(2) == 0 ? "true" : "false";
+      case 4: {
+        std::string text;
+        for (unsigned i = below(4); i > 0; --i) text += (text.empty() ? "" : " ,") + value(depth - 1);
+        return "[" + text + "]";
+      }
+      default: {
+        std::vector<int> keys(20);
+        std::iota(keys.begin(), keys.end(), 0);
+        std::shuffle(keys.begin(), keys.end(), random);
+        std::string text;
+        for (unsigned i = below(5); i > 0; --i) {
+          text += (text.empty() ? "" : ", ") + std::string("\"k") + std::to_string(keys[i]) +
+                  "\": " + value(depth - 1);
+        }
+        return "{" + text + "}";
+      }
+    }
+  };
+  for (int round = 0; round < 2000; ++round) {
+    const std::string text = value(5);
+    ASSERT_EQ(canonical_json(text, ExitCode::usage), nlohmann::json::parse(text).dump()) << text;
+  }
+}
+
+TEST(canonical_json, names_a_key_that_occurs_twice) {
+  for (const std::string text :
+       {R"({"b":1,"a":{},"b":2})", R"([{"x":{"b":1,"b":1}}])", R"({"\u0062":1,"b":2})"}) {
+    try {
+      canonical_json(text, ExitCode::usage);
+      ADD_FAILURE() << text;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.what(), std::string("JSON names the key \"b\" twice")) << text;
+    }
+  }
+}
+
+TEST(canonical_json, nests_64_deep_and_no_deeper) {
+  const auto nested = [](int depth) {
+    std::string text = "1";
+    for (int i = 0; i < depth; ++i) text = i % 2 == 0 ? "[" + text + "]" : R"({"a":)" + text + "}";
+    return text;
+  };
+  EXPECT_EQ(canonical_json(nested(64), ExitCode::usage), nested(64));
+  EXPECT_THROW(canonical_json(nested(65), ExitCode::usage), Error);
+  EXPECT_THROW(canonical_json(std::string(1'000'000, '['), ExitCode::usage), Error);
 }
 
 TEST(canonical_json, refuses_what_is_not_json) {
