@@ -22,6 +22,7 @@ using Texts = std::vector<std::string>;
 TEST(legend, ticks_are_round_numbers) {
   EXPECT_EQ(texts(0.013, 0.26), (Texts{"0.05", "0.10", "0.15", "0.20", "0.25"}));
   EXPECT_EQ(texts(-1, 1), (Texts{"-1.0", "-0.5", "0", "0.5", "1.0"}));
+  EXPECT_EQ(texts(0.4852261, 0.485246), (Texts{"0.485230", "0.485235", "0.485240", "0.485245"}));
   EXPECT_EQ(texts(0, 941), (Texts{"0", "200", "400", "600", "800"}));
   EXPECT_EQ(texts(0, 3e-9), (Texts{"0", "5e-10", "10e-10", "15e-10", "20e-10", "25e-10", "30e-10"}));
   EXPECT_EQ(texts(0, 5e9), (Texts{"0", "1e9", "2e9", "3e9", "4e9", "5e9"}));

@@ -46,7 +46,7 @@ std::string decimal(long long n, int exponent) {
   std::string digits = std::to_string(std::llabs(n));
   if (n == 0) {
     digits = "0";
-  } else if (exponent > 5 || exponent < -5) {
+  } else if (exponent > 5 || (exponent < -5 && static_cast<int>(digits.size()) + exponent < -2)) {
     digits += "e" + std::to_string(exponent);
   } else if (exponent >= 0) {
     digits.append(static_cast<std::size_t>(exponent), '0');
