@@ -9,10 +9,6 @@
 
 namespace ballflow::geometry {
 
-/// The angle of (x, y) against the x axis, in (-pi, pi]; 0 for (0, 0). Made of + - * / only, wrong by less
-/// than 1e-15: unlike that of the C library it does not differ between machines.
-double arctangent(double y, double x);
-
 /// Solid angle of the triangle seen from `point`, divided by 4 pi; positive when the triangle is
 /// counter-clockwise seen from the far side [Van Oosterom and Strackee 1983].
 double solid_angle_fraction(Vec3 a, Vec3 b, Vec3 c, Vec3 point);

@@ -7,6 +7,7 @@ namespace ballflow::nodes {
 const bf_node* alpha_shape_entry();
 const bf_node* medial_axis_entry();
 const bf_node* compare_entry();
+const bf_node* union_measure_entry();
 }  // namespace ballflow::nodes
 
 BALLFLOW_PLUGIN("shape", "0.1.0",
@@ -14,7 +15,9 @@ BALLFLOW_PLUGIN("shape", "0.1.0",
                     ballflow::nodes::alpha_shape_entry(),
                     ballflow::nodes::medial_axis_entry(),
                     ballflow::nodes::compare_entry(),
+                    ballflow::nodes::union_measure_entry(),
                 }),
                 (ballflow::type_entries<ballflow::geometry::Balls, ballflow::geometry::SimplicialComplex,
                                         ballflow::geometry::MedialAxis, ballflow::geometry::PointSet,
-                                        ballflow::geometry::TriangleMesh, ballflow::geometry::Comparison>()))
+                                        ballflow::geometry::TriangleMesh, ballflow::geometry::Comparison,
+                                        ballflow::geometry::MassProperties>()))

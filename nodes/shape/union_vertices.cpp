@@ -78,42 +78,6 @@ Vec3 vertex_of(const SimplicialComplex& complex, const std::array<std::int32_t, 
   return centers[0] + (p.foot + step * p.normal);
 }
 
-/// A vertex before merging: one triangle, one side.
-struct Named {
-  std::int32_t triangle;
-  std::int8_t side;
-  bool regular;
-};
-
-std::vector<Named> exposed_sides(const SimplicialComplex& complex, Monitor& monitor) {
-  const std::size_t n = complex.triangles.size();
-  std::vector<std::array<bool, 2>> filled(n, {false, false});  // a tetrahedron lies on side -1, +1
-  const auto& all = complex.triangles;
-  const double total = static_cast<double>(complex.tetrahedra.size());
-  std::size_t done = 0;
-  for (const auto& t : complex.tetrahedra) {
-    if (done++ % 4096 == 0) monitor.step(0.4 * static_cast<double>(done) / total);
-    for (std::size_t skip = 0; skip < 4; ++skip) {
-      std::array<std::int32_t, 3> face{};
-      for (std::size_t k = 0, m = 0; k < 4; ++k) {
-        if (k != skip) face[m++] = t[k];
-      }
-      const auto at = std::lower_bound(all.begin(), all.end(), face);
-      const auto center = [&](std::int32_t i) { return point(complex.centers[static_cast<std::size_t>(i)]); };
-      const auto side = CGAL::orientation(center(face[0]), center(face[1]), center(face[2]), center(t[skip]));
-      filled[static_cast<std::size_t>(at - all.begin())][side == CGAL::POSITIVE ? 1 : 0] = true;
-    }
-  }
-  std::vector<Named> named;
-  for (std::size_t i = 0; i < n; ++i) {
-    const bool singular = !filled[i][0] && !filled[i][1];
-    for (const std::int8_t side : {std::int8_t{-1}, std::int8_t{1}}) {
-      if (!filled[i][side > 0 ? 1 : 0]) named.push_back({static_cast<std::int32_t>(i), side, !singular});
-    }
-  }
-  return named;
-}
-
 /// Groups points that form chains with steps of at most `reach`; the smallest index of a group is its name.
 class Chains {
  public:
@@ -170,14 +134,47 @@ class Chains {
 
 }  // namespace
 
+std::vector<ExposedSide> exposed_sides(const SimplicialComplex& complex, Monitor& monitor) {
+  const std::size_t n = complex.triangles.size();
+  std::vector<std::array<bool, 2>> filled(n, {false, false});  // a tetrahedron lies on side -1, +1
+  const auto& all = complex.triangles;
+  const double total = static_cast<double>(complex.tetrahedra.size());
+  std::size_t done = 0;
+  for (const auto& t : complex.tetrahedra) {
+    if (done++ % 4096 == 0) monitor.step(0.4 * static_cast<double>(done) / total);
+    for (std::size_t skip = 0; skip < 4; ++skip) {
+      std::array<std::int32_t, 3> face{};
+      for (std::size_t k = 0, m = 0; k < 4; ++k) {
+        if (k != skip) face[m++] = t[k];
+      }
+      const auto at = std::lower_bound(all.begin(), all.end(), face);
+      const auto center = [&](std::int32_t i) { return point(complex.centers[static_cast<std::size_t>(i)]); };
+      const auto side = CGAL::orientation(center(face[0]), center(face[1]), center(face[2]), center(t[skip]));
+      filled[static_cast<std::size_t>(at - all.begin())][side == CGAL::POSITIVE ? 1 : 0] = true;
+    }
+  }
+  std::vector<ExposedSide> named;
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool singular = !filled[i][0] && !filled[i][1];
+    for (const std::int8_t side : {std::int8_t{-1}, std::int8_t{1}}) {
+      if (!filled[i][side > 0 ? 1 : 0]) named.push_back({static_cast<std::int32_t>(i), side, !singular});
+    }
+  }
+  return named;
+}
+
+Vec3 boundary_vertex(const SimplicialComplex& complex, const ExposedSide& side) {
+  return vertex_of(complex, complex.triangles[static_cast<std::size_t>(side.triangle)], side.side);
+}
+
 UnionVertices union_vertices(const SimplicialComplex& complex, double merge_distance, Monitor& monitor) {
-  const std::vector<Named> named = exposed_sides(complex, monitor);
+  const std::vector<ExposedSide> named = exposed_sides(complex, monitor);
   std::vector<Vec3> points;
   points.reserve(named.size());
-  for (const Named& v : named) {
+  for (const ExposedSide& v : named) {
     if (points.size() % 4096 == 0)
       monitor.step(0.4 + 0.4 * static_cast<double>(points.size()) / static_cast<double>(named.size()));
-    points.push_back(vertex_of(complex, complex.triangles[static_cast<std::size_t>(v.triangle)], v.side));
+    points.push_back(boundary_vertex(complex, v));
   }
   Chains chains(points, merge_distance);
   std::vector<std::pair<std::int32_t, std::int32_t>> members;  // (name of the group, member)
@@ -195,7 +192,7 @@ UnionVertices union_vertices(const SimplicialComplex& complex, double merge_dist
     const std::int32_t group = members[i].first;
     balls.clear();
     for (; i < members.size() && members[i].first == group; ++i) {
-      const Named& v = named[static_cast<std::size_t>(members[i].second)];
+      const ExposedSide& v = named[static_cast<std::size_t>(members[i].second)];
       const auto& triangle = complex.triangles[static_cast<std::size_t>(v.triangle)];
       balls.insert(balls.end(), triangle.begin(), triangle.end());
       if (v.regular) out.faces.push_back({v.triangle, v.side});

@@ -48,6 +48,19 @@ struct UnionVertices {
   }
 };
 
+/// One name of a boundary vertex, before merging.
+struct ExposedSide {
+  std::int32_t triangle;  // index into complex.triangles
+  std::int8_t side;       // orientation(i, j, k, x) of the points x on the side without tetrahedron: 1 or -1
+  bool regular;           // there is a tetrahedron on the other side
+};
+
+/// All names, by triangle, side -1 first. Same preconditions as union_vertices.
+std::vector<ExposedSide> exposed_sides(const SimplicialComplex& complex, Monitor& monitor = no_monitor());
+
+/// The point on the spheres of the triangle's balls that lies on that side of it.
+Vec3 boundary_vertex(const SimplicialComplex& complex, const ExposedSide& side);
+
 /// Vertices closer than `merge_distance` (model units) to each other, in a chain, become one. The complex
 /// must hold its invariants (see broken_invariant) and its tetrahedra must not be flat.
 UnionVertices union_vertices(const SimplicialComplex& complex, double merge_distance,

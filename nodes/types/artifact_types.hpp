@@ -8,6 +8,7 @@
 #include "types/comparison.hpp"
 #include "types/cover_check.hpp"
 #include "types/cover_state.hpp"
+#include "types/mass_properties.hpp"
 #include "types/medial_axis.hpp"
 #include "types/monitor.hpp"
 #include "types/point_set.hpp"
@@ -62,6 +63,11 @@ struct TypeOf<geometry::CoverCheck> {
 template <>
 struct TypeOf<geometry::Comparison> {
   static void declare(TypeDecl<geometry::Comparison>& d);
+};
+
+template <>
+struct TypeOf<geometry::MassProperties> {
+  static void declare(TypeDecl<geometry::MassProperties>& d);
 };
 
 template <>
