@@ -263,7 +263,7 @@ void TypeOf<geometry::MassProperties>::declare(TypeDecl<geometry::MassProperties
   d.summary("inertia", "[xx, yy, zz, xy, xz, yz] about the centre of mass at density 1");
   d.summary("closure_error", "0 but for rounding");
   d.summarize([](const T& v) {
-    const Vec3 c = v.center_of_mass;
+    const geometry::Vec3 c = v.center_of_mass;
     return Json{{"volume", v.volume},
                 {"area", v.area},
                 {"center_of_mass", {c.x, c.y, c.z}},
