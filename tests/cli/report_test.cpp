@@ -43,6 +43,11 @@ TEST_F(ReportCli, is_a_page_of_the_latest_run_with_the_command_that_repeats_it) 
   EXPECT_NE(shown.find("Unions of Balls"), std::string::npos) << "the sources of the nodes";
   const auto balls = report.at("outputs").at("balls").at("summary").at("count").get<int>();
   EXPECT_NE(shown.find("<td class=\"number\">" + std::to_string(balls) + "</td>"), std::string::npos);
+  EXPECT_NE(shown.find("<figcaption>balls</figcaption><img alt=\"balls\" src=\"data:image/png;base64,iVBOR"),
+            std::string::npos);
+  const std::string plain = page({"--pictures", "0"});
+  EXPECT_EQ(plain.find("<img"), std::string::npos);
+  EXPECT_NE(plain.find("no longer in the cache: 3 more"), std::string::npos) << "balls, points and mesh";
   EXPECT_EQ(page({folder.file("report.json")}), shown) << "a report file names its run";
 }
 
@@ -57,7 +62,7 @@ TEST_F(ReportCli, plots_a_sweep_and_names_the_content_of_its_files) {
                 "input=" + folder.file("box.off"), "--set", "model/dmt/sample.mode=surface", "--set",
                 "model/dmt/sample.count=200", "--quiet", "--report", folder.file("report.json")});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  const std::string shown = page({"latest"});
+  const std::string shown = page({"latest", "--pictures", "1"});
   EXPECT_NE(shown.find("class=\"band\""), std::string::npos) << "balls down to their bound";
   EXPECT_NE(shown.find("6 variants"), std::string::npos);
   const auto digest = test::run_process({"/usr/bin/sha256sum", folder.file("box.off")}).out.substr(0, 64);

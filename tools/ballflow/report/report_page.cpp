@@ -436,12 +436,16 @@ std::string bibliography(const ReportInput& input) {
   return out.empty() ? "" : "<ol>" + out + "</ol>\n";
 }
 
-std::string pictures(const std::vector<Picture>& all) {
+std::string pictures(const ReportInput& input) {
   std::string out;
-  for (const Picture& picture : all) {
+  for (const Picture& picture : input.pictures) {
     out += "<figure><figcaption>" + escaped(picture.title) + "</figcaption><img alt=\"" +
            escaped(picture.title) + "\" src=\"data:image/png;base64," + base64(picture.png) +
            "\"></figure>\n";
+  }
+  if (input.pictures_left_out > 0) {
+    out += "<p>Not drawn, because they are many or no longer in the cache: " +
+           number(static_cast<double>(input.pictures_left_out)) + " more (<code>--pictures</code>).</p>\n";
   }
   return out;
 }
@@ -475,7 +479,7 @@ std::string report_page(const ReportInput& input) {
   page += section("Results",
                   table_of(table) + "<details><summary>all fields</summary>" + table_of(all) + "</details>");
   page += section("Plots", plots(report, all));
-  page += section("Pictures", pictures(input.pictures));
+  page += section("Pictures", pictures(input));
   page += section("Time", times(report));
   page += section("What ran", parameters(report) + "<details><summary>" +
                                   number(double(member(report, "nodes").size())) + " nodes</summary>" +

@@ -19,6 +19,7 @@ struct ReportInput {
   Manifests manifests;                 // of the run; may be empty
   const Registry* registry = nullptr;  // what nodes are and what they cite
   std::vector<Picture> pictures;
+  std::size_t pictures_left_out = 0;  // outputs that could be drawn and were not
 };
 
 /// One HTML file without scripts; it loads nothing. Everything in it that comes from graphs, reports and
