@@ -193,10 +193,12 @@ class SphereSampler {
  public:
   SphereSampler(const Balls& balls, const Union& all, double spacing, double tolerance, Budget& budget,
                 Monitor& monitor, std::size_t i, BoundarySamples& samples)
-      : spacing_(spacing),
+      : all_(all),
+        spacing_(spacing),
         tolerance_(tolerance),
         budget_(budget),
         look_(monitor),
+        ball_(i),
         center_(balls.centers[i]),
         radius_(balls.radii[i]),
         samples_(samples) {
@@ -225,19 +227,26 @@ class SphereSampler {
   /// near_.
   void split(Vec3 a, Vec3 b, Vec3 c, double weight, std::size_t first, std::size_t last) {
     if (++patches_ % 256 == 0) budget_.spend(256);
-    look_(last - first);
     const Vec3 centroid = (1.0 / 3) * (a + b + c), direction = unit(centroid);
     const double reach = radius_ * std::max({distance(unit(a), direction), distance(unit(b), direction),
                                              distance(unit(c), direction)});
     const Vec3 position = center_ + radius_ * direction;
     const double deep = -reach - tolerance_;
+    // Where thousands of balls nearly agree, no list gets shorter: the tree of all balls is then faster.
+    const bool large = weight > 0.5 / 64;
     double depth = infinity;
-    for (std::size_t k = first; k < last; ++k) {
-      const Near other = near_[k];
-      const double d = distance(position, other.center) - other.radius;
-      depth = std::min(depth, d);
-      if (depth < deep) break;  // so the whole part is inside that ball
-      if (d < reach + tolerance_) near_.push_back(other);
+    if (large || last - first <= 256) {
+      look_(last - first);
+      for (std::size_t k = first; k < last; ++k) {
+        const Near other = near_[k];
+        const double d = distance(position, other.center) - other.radius;
+        depth = std::min(depth, d);
+        if (depth < deep) break;  // so the whole part is inside that ball
+        if (d < reach + tolerance_) near_.push_back(other);
+      }
+      first = last;
+    } else {
+      depth = all_.depth(position, infinity, deep, ball_);
     }
     const std::size_t end = near_.size();
     if (depth >= deep && reach <= spacing_) {
@@ -245,10 +254,10 @@ class SphereSampler {
       add(position, radius_ * radius_ * weight / (norm * norm * norm), depth);
     } else if (depth >= deep) {
       const Vec3 ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
-      split(a, ab, ca, weight / 4, last, end);
-      split(ab, b, bc, weight / 4, last, end);
-      split(ca, bc, c, weight / 4, last, end);
-      split(ab, bc, ca, weight / 4, last, end);
+      split(a, ab, ca, weight / 4, first, end);
+      split(ab, b, bc, weight / 4, first, end);
+      split(ca, bc, c, weight / 4, first, end);
+      split(ab, bc, ca, weight / 4, first, end);
     }
     near_.resize(last);
   }
@@ -266,9 +275,11 @@ class SphereSampler {
     double radius;
   };
 
+  const Union& all_;
   double spacing_, tolerance_;
   Budget& budget_;
   Lookout look_;
+  std::size_t ball_;
   std::vector<Near> near_;  // a stack: the lists of all parts from the sphere to the one that is split
   Vec3 center_;
   double radius_;
