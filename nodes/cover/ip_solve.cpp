@@ -15,39 +15,6 @@ namespace {
 
 using Ids = std::vector<std::int32_t>;
 
-/// The members of each group, ascending: group of i -> list of i. Negative groups are left out.
-Csr grouped(const Ids& group_of, const Ids& sizes) {
-  std::vector<std::int64_t> offsets(sizes.size() + 1);
-  for (std::size_t g = 0; g < sizes.size(); ++g) offsets[g + 1] = offsets[g] + sizes[g];
-  std::vector<std::int64_t> next(offsets.begin(), offsets.end() - 1);
-  Ids members(static_cast<std::size_t>(offsets.back()));
-  for (std::size_t i = 0; i < group_of.size(); ++i) {
-    if (group_of[i] < 0) continue;
-    const auto g = static_cast<std::size_t>(group_of[i]);
-    members[static_cast<std::size_t>(next[g]++)] = static_cast<std::int32_t>(i);
-  }
-  return {std::move(offsets), std::move(members)};
-}
-
-/// The columns of the submatrix of `rows`, as sets of positions in `rows`. `number` has room for all columns.
-Csr columns_of(const CoverState& state, std::span<const std::int32_t> rows,
-               std::span<const std::int32_t> columns, Ids& number, Monitor& monitor) {
-  for (std::size_t k = 0; k < columns.size(); ++k) {
-    number[static_cast<std::size_t>(columns[k])] = static_cast<std::int32_t>(k);
-  }
-  std::vector<std::int64_t> offsets{0};
-  Ids entries;
-  Lookout look(monitor);
-  for (const std::int32_t i : rows) {
-    look(state.row(static_cast<std::size_t>(i)).size());
-    for (const std::int32_t c : state.row(static_cast<std::size_t>(i))) {
-      entries.push_back(number[static_cast<std::size_t>(c)]);
-    }
-    offsets.push_back(static_cast<std::int64_t>(entries.size()));
-  }
-  return transpose({std::move(offsets), std::move(entries)}, columns.size(), monitor);
-}
-
 /// The first column of `columns` that contains none of `rows`, which ascend.
 std::optional<std::size_t> first_missed(const Csr& columns, const Ids& rows) {
   for (std::size_t c = 0; c < columns.size(); ++c) {
@@ -176,37 +143,33 @@ CoverState ip_solve(const CoverState& state, IpSolver& solver, const IpSolveOpti
                     Monitor& monitor, const CoverState* known_cover) {
   monitor.step(0);
   const Known known(state, known_cover);
-  const Components parts = components(state, monitor);
-  const Csr rows_in = grouped(parts.of_row, parts.rows), columns_in = grouped(parts.of_column, parts.columns);
-  Ids chosen, number(state.cols());
+  const Parts parts(state, monitor);
+  Ids chosen;
   std::vector<Choice> chosen_how;
   PricedGroups prices;  // of the components that were solved
   std::int64_t claimed = optimal_choices(state);
   for (std::size_t k = 0; k < parts.count(); ++k) {
     if (k % 1024 == 0) monitor.step(static_cast<double>(k) / static_cast<double>(parts.count()));
-    const auto rows = rows_in[k], columns = columns_in[k];
-    const bool small = parts.rows[k] <= options.max_balls;
+    const auto rows = parts.rows(k), columns = parts.columns(k);
+    const bool small = static_cast<std::int64_t>(rows.size()) <= options.max_balls;
     ++claimed;  // a component needs a ball
     if (!small && !known) continue;
+    const auto choose_row = [&](std::int32_t row, auto how_of) {
+      chosen.push_back(row);
+      chosen_how.push_back(how_of(state.row_ids[static_cast<std::size_t>(row)]));
+    };
     const auto choose_rows = [&](const Ids& positions, auto how_of) {
-      for (const std::int32_t p : positions) {
-        const std::int32_t row = rows[static_cast<std::size_t>(p)];
-        chosen.push_back(row);
-        chosen_how.push_back(how_of(state.row_ids[static_cast<std::size_t>(row)]));
-      }
+      for (const std::int32_t p : positions) choose_row(rows[static_cast<std::size_t>(p)], how_of);
     };
     const auto exactly = [](std::int32_t) { return Choice::exact; };
-    const auto whole = std::find_if(rows.begin(), rows.end(), [&](std::int32_t i) {
-      return state.row(static_cast<std::size_t>(i)).size() == columns.size();
-    });
-    if (small && whole != rows.end()) {
-      choose_rows({static_cast<std::int32_t>(whole - rows.begin())}, exactly);
+    if (const std::int32_t whole = small ? parts.whole_row(k) : -1; whole >= 0) {
+      choose_row(whole, exactly);
       prices.add(state.column_ids[static_cast<std::size_t>(columns[0])], price_unit);
       prices.close();
       continue;
     }
 
-    const Csr matrix = columns_of(state, rows, columns, number, monitor);
+    const Csr matrix = parts.part(k, monitor).columns;
     Ids best;
     if (known) {
       best = known.among(state, rows);
