@@ -66,7 +66,7 @@ TEST_F(RenderTest, puts_chosen_layers_side_by_side) {
   const test::DecodedPng both = picture();
   EXPECT_GT(drawn(both, 0, 60), 300);
   EXPECT_GT(drawn(both, 60, 120), 100);
-  ASSERT_EQ(render({"latest", "--layers", "medial_axis/medial axis", "--no-legend"}).exit_code, 0);
+  ASSERT_EQ(render({"latest", "--layers", "medial_axis/medial axis edges", "--no-legend"}).exit_code, 0);
   EXPECT_LT(drawn(picture(), 0, 120), 120 * 90);
 }
 
