@@ -13,7 +13,7 @@ const flags = [
 ];
 
 /** A message that Chromium did not answer in time is a failure, not a hang. */
-const patience = 60_000;
+const patience = 40_000;
 
 export class Chromium {
   #next = 1;

@@ -40,7 +40,8 @@ int view(const Common& common, const ViewArguments& arguments) {
     if (is_run(*store, name)) {
       page.add_run(find_run(*store, name));
     } else {
-      page.add_artifact(fs::path(name).filename().string(), find_artifact(common, name));
+      const std::string file = fs::path(name).filename().string();
+      page.add_artifact(file.size() == 64 ? file.substr(0, 12) : file, find_artifact(common, name));
     }
   }
   const bool live = isatty(STDERR_FILENO) != 0;

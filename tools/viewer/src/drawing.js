@@ -9,14 +9,16 @@ import {
   InstancedBufferGeometry,
   LineSegments,
   Mesh,
+  NotEqualStencilFunc,
   Points,
   RawShaderMaterial,
+  ReplaceStencilOp,
   Vector2,
   Vector3,
 } from 'three';
 import * as shaders from './shaders.js';
 
-const square = new Float32Array([-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0]);
+const square = [-1, -1, 1, -1, 1, 1, -1, 1];
 const ribbon = new Float32Array([0, -1, 0, 1, -1, 0, 1, 1, 0, 0, 1, 0]);
 const twoTriangles = [0, 1, 2, 0, 2, 3];
 
@@ -49,7 +51,12 @@ function gathered(values, indices, size) {
 }
 
 const every = (array, step, first) => Uint32Array.from({ length: array.length / step }, (_, i) => array[i * step + first]);
-const repeated = (values, times) => Float32Array.from({ length: values.length * times }, (_, i) => values[Math.floor(i / times)]);
+
+function repeated(values, times) {
+  const result = new Float32Array(values.length * times);
+  for (let i = 0; i < values.length; ++i) result.fill(values[i], i * times, (i + 1) * times);
+  return result;
+}
 
 export class Drawing {
   /** arrays: { vertices, radii, segments, triangles } as the shape has them. */
@@ -77,6 +84,7 @@ export class Drawing {
       fragmentShader: shaders[`${shape}Fragment`],
       uniforms: this.uniforms,
       side: DoubleSide,
+      forceSinglePass: true, // else three draws translucent surfaces twice, back and front
       ...more,
     });
   }
@@ -86,12 +94,14 @@ export class Drawing {
     const { vertices, radii, segments, triangles } = this.arrays;
     let geometry;
     if (shape === 'balls') {
-      geometry = new InstancedBufferGeometry();
-      geometry.instanceCount = this.layer.count;
-      geometry.setAttribute('position', new BufferAttribute(square, 3));
-      geometry.setAttribute('centre', new InstancedBufferAttribute(vertices, 3));
-      geometry.setAttribute('radius', new InstancedBufferAttribute(radii, 1));
-      geometry.setIndex(twoTriangles);
+      // Four vertices a ball: instances of two triangles are slow where there is no graphics card.
+      const { count } = this.layer;
+      const four = Uint32Array.from({ length: 4 * count }, (_, i) => i >> 2);
+      geometry = new BufferGeometry();
+      geometry.setAttribute('position', new BufferAttribute(gathered(vertices, four, 3), 3));
+      geometry.setAttribute('radius', new BufferAttribute(repeated(radii, 4), 1));
+      geometry.setAttribute('corner', new BufferAttribute(Int8Array.from({ length: 8 * count }, (_, i) => square[i % 8]), 2));
+      geometry.setIndex(new BufferAttribute(Uint32Array.from({ length: 6 * count }, (_, i) => 4 * Math.floor(i / 6) + twoTriangles[i % 6]), 1));
     } else if (shape === 'segments') {
       geometry = new InstancedBufferGeometry();
       geometry.instanceCount = this.layer.count;
@@ -106,7 +116,8 @@ export class Drawing {
     }
     this.geometry = geometry;
     const material = this.#material(shape.slice(0, -1));
-    // A translucent layer shows its nearest surface only: its depth is drawn first, then its colour.
+    // A translucent layer shows its nearest surface only: its depth is drawn first, then its colour, and where
+    // several surfaces are equally near, the stencil lets one of them through.
     const depth = this.#material(shape.slice(0, -1), { colorWrite: false, transparent: true });
     const Kind = shape === 'points' ? Points : Mesh;
     this.main = new Kind(geometry, material);
@@ -136,7 +147,7 @@ export class Drawing {
     const { geometry } = this;
     const numbers = values ? (values instanceof Float32Array ? values : Float32Array.from(values)) : null;
     if (shape === 'balls') {
-      geometry.setAttribute('value', new InstancedBufferAttribute(numbers ?? new Float32Array(count), 1));
+      geometry.setAttribute('value', new BufferAttribute(numbers ? repeated(numbers, 4) : new Float32Array(4 * count), 1));
     } else if (shape === 'segments') {
       const at = (end) =>
         numbers === null ? new Float32Array(count) : perElement ? numbers : gathered(numbers, every(segments, 2, end), 1);
@@ -180,6 +191,10 @@ export class Drawing {
     if (this.wire) this.wire.visible = wire;
     for (const { material } of [this.main, ...(this.wire ? [this.wire] : [])]) {
       if (material.transparent !== translucent) material.needsUpdate = true;
+      material.stencilWrite = translucent;
+      material.stencilFunc = NotEqualStencilFunc;
+      material.stencilZPass = ReplaceStencilOp;
+      material.stencilRef = (order % 255) + 1;
       material.transparent = translucent;
       material.alphaToCoverage = !translucent && this.layer.shape !== 'triangles' && this.layer.shape !== 'segments';
     }

@@ -46,7 +46,7 @@ let known; // all layers of a key over the variants, for the range of colours
 function layersOfKey(key) {
   if (known?.node !== chosenNode()?.name || known?.withOutputs !== state.withOutputs) {
     const name = chosenNode()?.name;
-    const all = variants.map((one) => {
+    const all = (variants.length > 0 ? variants : [null]).map((one) => {
       const path = model.nodesOf(scene, one).find((node) => node.name === name)?.path ?? null;
       return model.groupsOf(scene, one, path, state.withOutputs);
     });
@@ -425,7 +425,7 @@ async function start() {
     showToolbar();
   }
   await showAll();
-  stage?.render();
+  stage?.quick();
 }
 
 const ready = start();
@@ -444,6 +444,6 @@ window.ballflow = {
   },
   settled: async () => {
     await picture;
-    stage?.render();
+    stage?.finish();
   },
 };

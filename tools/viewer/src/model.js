@@ -94,7 +94,7 @@ export function groupsOf(scene, variant, nodePath, withOutputs = false) {
     }));
     groups.push({ title, digest, artifact, layers });
   };
-  const nodes = nodesOf(scene, variant);
+  const nodes = nodesOf(scene, variant); // none of artifacts alone
   const chosen = nodes.find(({ path }) => path === nodePath);
   if (chosen) {
     for (const [port, { digest }] of Object.entries(chosen.outputs)) add(`${chosen.name}.${port}`, digest);

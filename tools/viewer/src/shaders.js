@@ -41,8 +41,8 @@ vec3 lit(vec3 colour, vec3 normal, vec3 towardsEye) {
 // a clipping plane cuts open is closed by a disk. Where disks overlap, that of the ball with the smallest power
 // distance is in front: the section of the union is its power diagram.
 export const ballVertex = `${precision}
-in vec3 position;  // corner of the square
-in vec3 centre;
+in vec2 corner;  // of the square
+in vec3 position;
 in float radius;
 in float value;
 uniform mat4 modelViewMatrix, projectionMatrix;
@@ -53,12 +53,12 @@ flat out vec3 c;
 flat out float r;
 flat out vec3 colour;
 void main() {
-  c = (modelViewMatrix * vec4(centre, 1.0)).xyz;
+  c = (modelViewMatrix * vec4(position, 1.0)).xyz;
   r = radius;
   colour = colourOf(value);
   float pixel = 3.0 / (projectionMatrix[1][1] * viewport.y);  // one and a half pixels, at distance 1
   if (orthographic) {
-    gl_Position = projectionMatrix * vec4(c + vec3(position.xy * (r + pixel), r), 1.0);
+    gl_Position = projectionMatrix * vec4(c + vec3(corner * (r + pixel), r), 1.0);
     return;
   }
   if (c.z - r > 0.0) {
@@ -71,10 +71,10 @@ void main() {
   vec3 up = cross(right, axis);
   float size = front * (r / sqrt((d - r) * (d + r)) + pixel);
   if (front <= 0.0 || axis.z * front + size * (abs(right.z) + abs(up.z)) > -1e-3 * front) {
-    gl_Position = vec4(position.xy, -1.0, 1.0);  // the camera is inside, or nearly: the whole picture
+    gl_Position = vec4(corner, -1.0, 1.0);  // the camera is inside, or nearly: the whole picture
     return;
   }
-  gl_Position = projectionMatrix * vec4(axis * front + size * (position.x * right + position.y * up), 1.0);
+  gl_Position = projectionMatrix * vec4(axis * front + size * (corner.x * right + corner.y * up), 1.0);
   gl_Position.z = max(gl_Position.z, -gl_Position.w);  // the ball may begin before the near plane
 }
 `;

@@ -19,7 +19,13 @@ import { channels } from './palette.js';
 
 const fieldOfView = 35; // degrees
 const slowFrame = 70; // ms; slower frames are drawn with fewer pixels while the view moves
-const coarsest = 0.35;
+const coarsest = 0.1; // of the pixels of a row
+const settling = 250; // ms after the last change until the picture is drawn as well as it can be
+
+// Fragments of balls that a frame may have while the view changes, and at rest: what takes a graphics card about a
+// tenth of a second and a second. Without one, Chromium's SwiftShader does about seven million a second on a core.
+const hardware = { moving: 5e8, rest: 5e9 };
+const software = { moving: 1e7, rest: 4e7 };
 
 function texture(colours, filter) {
   const data = new Uint8Array(colours.length * 4);
@@ -38,7 +44,8 @@ const views = {
 
 export class Stage {
   #requested = 0;
-  #scale = 1;
+  #scale = 1; // of the pixels of a row that are drawn
+  #slow = 1; // the part of that which the speed of frames decides
   #moving = false;
   #lastFrame = 0;
 
@@ -46,10 +53,15 @@ export class Stage {
   constructor(canvas, palette, centre) {
     this.canvas = canvas;
     this.centre = centre;
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: 'high-performance' });
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, stencil: true, powerPreference: 'high-performance' });
+    const gl = this.renderer.getContext();
+    const names = gl.getExtension('WEBGL_debug_renderer_info');
+    const name = gl.getParameter(names ? names.UNMASKED_RENDERER_WEBGL : gl.RENDERER);
+    this.budget = /swiftshader|llvmpipe|software|basic render/i.test(name) ? software : hardware;
     this.scalarTable = texture(palette.scalar, LinearFilter);
     this.categoryTable = texture(palette.categories, NearestFilter);
     this.scene = new Scene();
+    this.shown = [];
     this.drawings = new Group();
     this.scene.add(this.drawings);
     this.uniforms = {
@@ -89,18 +101,16 @@ export class Stage {
     this.controls.zoomToCursor = true;
     this.controls.zoomSpeed = 1.5;
     this.controls.addEventListener('change', () => this.changed());
-    this.controls.addEventListener('start', () => (this.#moving = true));
-    this.controls.addEventListener('end', () => this.#rest());
   }
 
-  #rest() {
+  /** Draws with as many pixels as there is time for. */
+  #settle() {
     clearTimeout(this.timer);
     this.timer = setTimeout(() => {
       this.#moving = false;
-      if (this.#scale === 1) return;
-      this.#scale = 1;
-      this.#resize();
-    }, 200);
+      this.#slow = 1;
+      this.render();
+    }, settling);
   }
 
   #resize() {
@@ -108,11 +118,15 @@ export class Stage {
     if (width === 0 || height === 0) return;
     this.width = width;
     this.height = height;
+    this.#setSize();
+    this.render();
+  }
+
+  #setSize() {
     this.pixelRatio = Math.min(window.devicePixelRatio, 2) * this.#scale;
     this.renderer.setPixelRatio(this.pixelRatio);
-    this.renderer.setSize(width, height, false);
+    this.renderer.setSize(this.width, this.height, false);
     this.#frame();
-    this.render();
   }
 
   /** What does not depend on where the camera is. */
@@ -132,19 +146,48 @@ export class Stage {
     this.onchange();
   }
 
+  /** Draws soon; quickly at first, and as well as it can be when nothing changes any more. */
   request() {
+    this.#moving = true;
+    this.#settle();
     this.#requested ||= requestAnimationFrame((now) => {
-      this.#adapt(now);
+      const elapsed = now - this.#lastFrame;
+      this.#lastFrame = now;
+      if (elapsed > slowFrame && elapsed < 1000) this.#slow = Math.max(coarsest, this.#slow * 0.8);
       this.render();
     });
   }
 
-  #adapt(now) {
-    const elapsed = now - this.#lastFrame;
-    this.#lastFrame = now;
-    if (!this.#moving || elapsed > 1000 || elapsed < slowFrame || this.#scale <= coarsest) return;
-    this.#scale = Math.max(coarsest, this.#scale * 0.7);
-    this.#resize();
+  /** About how many fragments the visible balls have at full resolution. */
+  #fragments() {
+    const ratio = Math.min(window.devicePixelRatio, 2);
+    const screen = this.width * this.height * ratio * ratio;
+    const view = this.camera.matrixWorldInverse.elements;
+    const scale = (this.height * ratio * this.camera.projectionMatrix.elements[5]) / 2;
+    const parallel = this.camera === this.parallel;
+    let sum = 0;
+    for (const { layer, arrays, uniforms } of this.shown) {
+      if (layer.shape !== 'balls') continue;
+      const { vertices, radii } = arrays;
+      const [x, y, z] = layer.centre.map((c, i) => c - this.centre[i]);
+      const offset = view[2] * x + view[6] * y + view[10] * z + view[14];
+      const passes = uniforms.opacity.value < 1 ? 2 : 1;
+      for (let i = 0; i < radii.length; ++i) {
+        const depth = -(view[2] * vertices[3 * i] + view[6] * vertices[3 * i + 1] + view[10] * vertices[3 * i + 2] + offset);
+        const size = parallel ? radii[i] * scale : (radii[i] * scale) / Math.max(depth, radii[i]);
+        sum += depth < -radii[i] ? 0 : passes * Math.min(Math.PI * size * size, screen);
+      }
+    }
+    return sum;
+  }
+
+  #chooseScale() {
+    const budget = this.#moving ? this.budget.moving : this.budget.rest;
+    const wanted = Math.min(1, Math.sqrt(budget / Math.max(this.#fragments(), 1)) * (this.#moving ? this.#slow : 1));
+    const scale = Math.max(coarsest, wanted);
+    if (scale === this.#scale || Math.abs(scale / this.#scale - 1) < 0.1 && scale < 1) return;
+    this.#scale = scale;
+    this.#setSize();
   }
 
   /** Near and far are as tight as what is visible. */
@@ -184,12 +227,35 @@ export class Stage {
     this.#requested = 0;
     if (!this.width) return;
     this.#range();
+    this.#chooseScale();
     this.#cut();
     this.renderer.render(this.scene, this.camera);
   }
 
+  /** Draws now, as well as it can be, and waits until that is done. */
+  finish() {
+    clearTimeout(this.timer);
+    this.#moving = false;
+    this.#slow = 1;
+    this.render();
+    this.#wait();
+  }
+
+  /** Draws now and quickly, and waits until that is done. */
+  quick() {
+    this.request();
+    this.render();
+    this.#wait();
+  }
+
+  #wait() {
+    const gl = this.renderer.getContext();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+  }
+
   /** Shows these drawings and no others. */
   show(drawings) {
+    this.shown = drawings;
     this.drawings.clear();
     for (const drawing of drawings) {
       const offset = drawing.layer.centre.map((x, i) => x - this.centre[i]);
