@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -219,6 +220,8 @@ void run(Searches& searches, const CoverState& state, double target_gap, Monitor
       return;
     }
     monitor.step(static_cast<double>(round) / rounds);
+    monitor.note(std::to_string(balls) + " balls" +
+                 (bound > 0 ? ", at least " + std::to_string(bound) + " needed" : ""));
     searches.run(1.0 / rounds, monitor);
   }
 }

@@ -2,7 +2,9 @@
 // fields stand in artifact_types.cpp; they are part of the interface of the project and stable.
 #pragma once
 
+#include <atomic>
 #include <ballflow/sdk.hpp>
+#include <chrono>
 
 #include "types/balls.hpp"
 #include "types/comparison.hpp"
@@ -24,10 +26,19 @@ class ContextMonitor final : public geometry::Monitor {
   explicit ContextMonitor(const RunContext& context) : context_(context) {}
   void progress(double fraction) override { context_.progress(fraction); }
   bool cancelled() override { return context_.cancelled(); }
+  void note(const std::string& text) override {
+    const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
+    auto last = last_note_.load();
+    constexpr auto pause = std::chrono::steady_clock::duration(std::chrono::seconds(2)).count();
+    if (now - last > pause && last_note_.compare_exchange_strong(last, now)) context_.info(text);
+  }
   void warn(const std::string& text) override { context_.warn(text); }
 
  private:
   const RunContext& context_;
+  // Quick nodes say nothing: the first pause begins with the node.
+  std::atomic<std::chrono::steady_clock::rep> last_note_ =
+      std::chrono::steady_clock::now().time_since_epoch().count();
 };
 
 template <>

@@ -29,6 +29,8 @@ class Monitor {
   /// `fraction` in [0, 1] of the work is done; call it often (thousands of times a second are cheap).
   virtual void progress(double fraction) { (void)fraction; }
   virtual bool cancelled() { return false; }
+  /// How far a long computation has come, in words. Who shows it leaves most of them out.
+  virtual void note(const std::string& text) { (void)text; }
   /// Something the user should know although the result is valid.
   virtual void warn(const std::string& text) { (void)text; }
 
@@ -45,6 +47,7 @@ class PartMonitor final : public Monitor {
   PartMonitor(Monitor& whole, double begin, double end) : whole_(whole), begin_(begin), end_(end) {}
   void progress(double fraction) override { whole_.progress(begin_ + (end_ - begin_) * fraction); }
   bool cancelled() override { return whole_.cancelled(); }
+  void note(const std::string& text) override { whole_.note(text); }
   void warn(const std::string& text) override { whole_.warn(text); }
 
  private:

@@ -189,6 +189,24 @@ TEST(local_search, stops_when_cancelled) {
   EXPECT_THROW(local_search(state, {}, monitor), Cancelled);
 }
 
+TEST(local_search, tells_balls_and_bound_while_it_searches) {
+  struct Listener final : Monitor {
+    void note(const std::string& text) override { notes.push_back(text); }
+    std::vector<std::string> notes;
+  } listener;
+  std::mt19937 random(81);
+  const CoverState bounded = lagrangian_bound(state_of(test::random_sets(random, 200, 300, 0.03), 300));
+  const CoverState found = local_search(bounded, {}, listener);
+  ASSERT_GT(listener.notes.size(), 1u);
+  EXPECT_EQ(listener.notes.back(), std::to_string(found.chosen.size()) + " balls, at least " +
+                                       std::to_string(bounded.lower_bound) + " needed");
+  const CoverState unbounded = state_of(test::random_sets(random, 200, 300, 0.03), 300);
+  listener.notes.clear();
+  local_search(unbounded, {}, listener);
+  ASSERT_FALSE(listener.notes.empty());
+  EXPECT_EQ(listener.notes.front().find("needed"), std::string::npos);
+}
+
 TEST(local_search, searches_the_core_of_small_reduced_cost_once_more) {
   std::mt19937 random(80);
   int better = 0;
