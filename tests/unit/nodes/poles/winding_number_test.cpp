@@ -6,6 +6,7 @@
 #include <random>
 
 #include "shapes.hpp"
+#include "types/arctangent.hpp"
 
 namespace ballflow {
 namespace {
