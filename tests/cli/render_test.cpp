@@ -1,6 +1,7 @@
 // ballflow render: pictures of runs, artifacts and models.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -20,8 +21,10 @@ struct RenderTest : testing::Test {
   }
 
   test::ProcessResult render(std::vector<std::string> arguments) {
-    for (const char* word : {"--size", "120x90", "-o"}) arguments.emplace_back(word);
-    arguments.push_back(folder.file("picture.png"));
+    if (std::find(arguments.begin(), arguments.end(), "--size") == arguments.end()) {
+      arguments.insert(arguments.end(), {"--size", "120x90"});
+    }
+    arguments.insert(arguments.end(), {"-o", folder.file("picture.png")});
     arguments.insert(arguments.begin(), "render");
     return ballflow(arguments);
   }
