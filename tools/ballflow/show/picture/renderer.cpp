@@ -13,7 +13,7 @@ using geometry::dot;
 using geometry::Vec3;
 
 constexpr int pattern_side = 4, patterns = pattern_side * pattern_side;
-constexpr int sky_rays = 8, lamp_rays = 3;                           // per pixel
+constexpr int sky_rays = 6, lamp_rays = 3;                           // per pixel
 constexpr double sky_distance = 0.3;                                 // what is farther away hides nothing
 constexpr double lamp_radius = 0.16;                                 // tangent of the angle
 constexpr double surface_offset = 1e-4;                              // rays begin above the surface
