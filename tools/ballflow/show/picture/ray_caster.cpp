@@ -1,6 +1,5 @@
 #include "show/picture/ray_caster.hpp"
 
-#include <embree3/rtcore.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -12,6 +11,8 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "show/picture/embree.hpp"
 
 namespace ballflow::show {
 namespace {
@@ -189,8 +190,8 @@ struct RayCaster::Impl {
   RTCScene scene = nullptr;
 
   ~Impl() {
-    if (scene != nullptr) rtcReleaseScene(scene);
-    if (device != nullptr) rtcReleaseDevice(device);
+    if (scene != nullptr) embree().release_scene(scene);
+    if (device != nullptr) embree().release_device(device);
   }
 
   RTCBounds bounds_of(Kind kind, std::size_t i) const;
@@ -235,17 +236,17 @@ void RayCaster::Impl::look_at(Query& query, const Group& group, std::uint32_t i)
 void RayCaster::Impl::add_group(Kind kind, std::size_t count, std::uint32_t first) {
   if (count == 0) return;
   groups[kind] = {this, kind, first};
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(count));
-  rtcSetGeometryUserData(geometry, &groups[kind]);
-  rtcSetGeometryBoundsFunction(
+  RTCGeometry geometry = embree().new_geometry(device, RTC_GEOMETRY_TYPE_USER);
+  embree().set_geometry_user_primitive_count(geometry, static_cast<unsigned>(count));
+  embree().set_geometry_user_data(geometry, &groups[kind]);
+  embree().set_geometry_bounds_function(
       geometry,
       [](const RTCBoundsFunctionArguments* arguments) {
         const Group& group = *static_cast<const Group*>(arguments->geometryUserPtr);
         *arguments->bounds_o = group.impl->bounds_of(group.kind, arguments->primID);
       },
       nullptr);
-  rtcSetGeometryIntersectFunction(geometry, [](const RTCIntersectFunctionNArguments* arguments) {
+  embree().set_geometry_intersect_function(geometry, [](const RTCIntersectFunctionNArguments* arguments) {
     const Group& group = *static_cast<const Group*>(arguments->geometryUserPtr);
     Query& query = *reinterpret_cast<Query*>(arguments->context);
     group.impl->look_at(query, group, arguments->primID);
@@ -253,7 +254,7 @@ void RayCaster::Impl::add_group(Kind kind, std::size_t count, std::uint32_t firs
       reinterpret_cast<RTCRayHit*>(arguments->rayhit)->ray.tfar = rounded_up(query.best.t);
     }
   });
-  rtcSetGeometryOccludedFunction(geometry, [](const RTCOccludedFunctionNArguments* arguments) {
+  embree().set_geometry_occluded_function(geometry, [](const RTCOccludedFunctionNArguments* arguments) {
     const Group& group = *static_cast<const Group*>(arguments->geometryUserPtr);
     Query& query = *reinterpret_cast<Query*>(arguments->context);
     group.impl->look_at(query, group, arguments->primID);
@@ -261,9 +262,9 @@ void RayCaster::Impl::add_group(Kind kind, std::size_t count, std::uint32_t firs
       reinterpret_cast<RTCRay*>(arguments->ray)->tfar = -std::numeric_limits<float>::infinity();
     }
   });
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene, geometry);
-  rtcReleaseGeometry(geometry);
+  embree().commit_geometry(geometry);
+  embree().attach_geometry(scene, geometry);
+  embree().release_geometry(geometry);
 }
 
 void RayCaster::Impl::ask(Query& query) const {
@@ -280,12 +281,12 @@ void RayCaster::Impl::ask(Query& query) const {
   ray.tfar = rounded_up(query.interval.upper);
   ray.mask = ~0U;
   if (query.question == Question::blocked) {
-    rtcOccluded1(scene, &query.context, &ray);
+    embree().occluded_1(scene, &query.context, &ray);
   } else {
     RTCRayHit ray_hit{};
     ray_hit.ray = ray;
     ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene, &query.context, &ray_hit);
+    embree().intersect_1(scene, &query.context, &ray_hit);
   }
 }
 
@@ -295,15 +296,15 @@ RayCaster::RayCaster(Bodies bodies, geometry::Monitor& monitor) : impl_(std::mak
   if (all.size() >= std::numeric_limits<std::uint32_t>::max()) {
     throw std::length_error("more than four billion bodies in a picture");
   }
-  impl_->device = rtcNewDevice(
+  impl_->device = embree().new_device(
       // Embree limits the threads of the whole process to those it is told.
       ("threads=" + std::to_string(tbb::this_task_arena::max_concurrency())).c_str());
   if (impl_->device == nullptr) {
     throw std::runtime_error("Embree cannot be used on this machine (error " +
-                             std::to_string(rtcGetDeviceError(nullptr)) + ")");
+                             std::to_string(embree().get_device_error(nullptr)) + ")");
   }
-  impl_->scene = rtcNewScene(impl_->device);
-  rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
+  impl_->scene = embree().new_scene(impl_->device);
+  embree().set_scene_flags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
   const auto first_capsule = static_cast<std::uint32_t>(all.balls.size());
   const auto first_triangle = static_cast<std::uint32_t>(first_capsule + all.capsules.size());
   std::vector<std::uint32_t> order(all.balls.size());
@@ -312,9 +313,9 @@ RayCaster::RayCaster(Bodies bodies, geometry::Monitor& monitor) : impl_(std::mak
   impl_->add_group(clusters, impl_->ball_clusters.size(), 0);
   impl_->add_group(capsules, all.capsules.size(), first_capsule);
   impl_->add_group(triangles, all.triangles.size(), first_triangle);
-  rtcSetSceneProgressMonitorFunction(impl_->scene, go_on, &monitor);
-  rtcJoinCommitScene(impl_->scene);  // in the threads of the caller
-  switch (const RTCError error = rtcGetDeviceError(impl_->device)) {
+  embree().set_scene_progress_monitor_function(impl_->scene, go_on, &monitor);
+  embree().join_commit_scene(impl_->scene);  // in the threads of the caller
+  switch (const RTCError error = embree().get_device_error(impl_->device)) {
     case RTC_ERROR_NONE:
       break;
     case RTC_ERROR_CANCELLED:
