@@ -43,11 +43,31 @@ struct OptionsTest : RunTest {
   }
 };
 
+/// Holds slow and heavy nodes until an event of one kind, so that no test depends on who is faster.
+struct HoldUntil final : EventSink {
+  HoldUntil(EventSink& s, Event::Kind k, std::size_t n = any) : sink(s), kind(k), node(n) {
+    toy::holding = true;
+  }
+  ~HoldUntil() override { toy::holding = false; }
+  void on(const Event& event) override {
+    sink.on(event);
+    if (event.kind == kind && (node == any || event.node == node)) toy::holding = false;
+  }
+  static constexpr std::size_t any = static_cast<std::size_t>(-1);
+  EventSink& sink;
+  const Event::Kind kind;
+  const std::size_t node;
+};
+
 constexpr auto failed = NodeStatus::failed;
 constexpr auto skipped = NodeStatus::skipped;
 
 TEST_F(OptionsTest, a_failure_ends_the_run_but_keep_going_finishes_what_does_not_need_it) {
-  const RunResult ended = run_with(branches(), {});
+  const Dag dag = branches();
+  HoldUntil failure(events, Event::Kind::node_finished, 2);
+  RunOptions two;
+  two.threads = 2;
+  const RunResult ended = Runner(dag, registry, store(), two, failure).run();
   EXPECT_EQ(ended.status, ExitCode::node_failed);
   EXPECT_EQ(ended.nodes[5].status, skipped) << "round had not started";
 
@@ -130,7 +150,9 @@ TEST_F(OptionsTest, a_forced_node_that_waits_for_memory_is_still_forced) {
   options.threads = 4;
   options.memory_bytes = 100;
   options.force = all;
-  EXPECT_EQ(statuses(run_with(dag, options)), (std::vector<NodeStatus>{ran, ran, ran, ran}));
+  HoldUntil waiting(events, Event::Kind::node_waiting);
+  EXPECT_EQ(statuses(Runner(dag, registry, store(), options, waiting).run()),
+            (std::vector<NodeStatus>{ran, ran, ran, ran}));
   EXPECT_EQ(toy::counters.heavy, 4);
   EXPECT_EQ(toy::counters.heavy_most, 1);
   EXPECT_FALSE(events.waiting.empty());

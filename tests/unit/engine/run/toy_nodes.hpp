@@ -46,10 +46,16 @@ struct Counters {
 };
 inline Counters counters;
 inline std::atomic<bool> steady_noise{false};  // Noisy gives the same again
+inline std::atomic<bool> holding{false};       // Slow and Heavy do not end while it is set, up to a minute
+inline void wait_while_holding() {
+  for (int tries = 0; holding && tries < 60'000; ++tries)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
 inline void reset() {
   counters.source = counters.add = counters.round = counters.slow = counters.fail = counters.noisy =
       counters.heavy = 0;
   counters.heavy_now = counters.heavy_most = 0;
+  holding = false;
 }
 
 }  // namespace toy
@@ -147,6 +153,7 @@ struct Slow {
       context.check_cancelled();
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
+    wait_while_holding();
     same = *numbers;
   }
 };
@@ -262,6 +269,7 @@ struct Heavy {
     while (most < now && !counters.heavy_most.compare_exchange_weak(most, now)) {
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    wait_while_holding();
     --counters.heavy_now;
     numbers = Numbers{std::vector<double>{value}};
   }
