@@ -157,6 +157,35 @@ void write_string(std::string_view text, std::string& out) {
   out += '"';
 }
 
+void write_value(const Json& value, std::string& out) {
+  switch (value.type()) {
+    case Json::value_t::null:
+      out += "null";
+      break;
+    case Json::value_t::boolean:
+      out += value.get<bool>() ? "true" : "false";
+      break;
+    case Json::value_t::number_integer:
+      write_number(value.get<std::int64_t>(), out);
+      break;
+    case Json::value_t::number_unsigned:
+      write_number(value.get<std::uint64_t>(), out);
+      break;
+    case Json::value_t::number_float:
+      write_number(value.get<double>(), out);
+      break;
+    case Json::value_t::string: {
+      const auto& text = value.get_ref<const std::string&>();
+      const auto ascii = [](char c) { return static_cast<unsigned char>(c) < 0x80; };
+      if (std::all_of(text.begin(), text.end(), ascii)) return write_string(text, out);
+      out += value.dump();  // which refuses what is not UTF-8
+      break;
+    }
+    default:
+      out += value.dump();
+  }
+}
+
 std::string shown_text(std::string_view text) {
   std::string shown = "\"";
   for (const char c : text.substr(0, 40)) shown += c >= ' ' && c <= '~' && c != '"' ? c : '?';

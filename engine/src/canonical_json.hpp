@@ -7,6 +7,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include "ballflow/node_decl.hpp"
+
 namespace ballflow {
 
 /// Appends a text in quotes.
@@ -20,6 +22,10 @@ void write_number(Number value, std::string& out) {
   out += shown;
   if (std::is_floating_point_v<Number> && shown.find_first_of(".e") == std::string_view::npos) out += ".0";
 }
+
+/// Appends a value in one line, objects in the order of their members. A serializer is set up for arrays and
+/// objects only: parameters are numbers and texts as a rule.
+void write_value(const Json& value, std::string& out);
 
 /// A piece of foreign text for a message: shortened, unprintable characters replaced.
 std::string shown_text(std::string_view text);

@@ -27,37 +27,40 @@ std::string shape_text(const NamedArray& array) {
 
 struct Length {
   std::int64_t value;
-  std::string array;
+  const ArrayDecl* array;  // which has it
 };
 
+std::string declared_shape(const ArrayDecl& decl) {
+  std::string text;
+  for (const Json& length : decl.shape) text += (text.empty() ? "" : " x ") + plain_text(length);
+  return text.empty() ? "one number" : text;
+}
+
+/// Empty, and nothing allocated, where the array is as declared: the engine calls this for every output.
 std::string check_array(const ArrayDecl& decl, const NamedArray& array,
                         std::map<std::string, Length>& lengths) {
-  const std::string start = "array " + in_quotes(decl.name);
+  const auto start = [&decl] { return "array " + in_quotes(decl.name); };
   if (dtype_name(array.dtype) != decl.dtype) {
-    return start + " holds " + std::string(dtype_name(array.dtype)) + ", must hold " + decl.dtype;
+    return start() + " holds " + std::string(dtype_name(array.dtype)) + ", must hold " + decl.dtype;
   }
   bool fits = array.shape.size() == decl.shape.size();
-  std::string wanted;
-  for (std::size_t i = 0; i < decl.shape.size(); ++i) {
-    const Json& length = decl.shape[i];
-    wanted += (i == 0 ? "" : " x ") + plain_text(length);
-    if (fits && length.is_number()) fits = array.shape[i] == length.get<std::uint64_t>();
+  for (std::size_t i = 0; fits && i < decl.shape.size(); ++i) {
+    if (decl.shape[i].is_number()) fits = array.shape[i] == decl.shape[i].get<std::uint64_t>();
   }
-  if (!fits)
-    return start + " is " + shape_text(array) + ", must be " + (wanted.empty() ? "one number" : wanted);
+  if (!fits) return start() + " is " + shape_text(array) + ", must be " + declared_shape(decl);
   if (decl.shape.empty() || !decl.shape[0].is_string()) return {};
 
-  const auto [name, more] = length_name(decl.shape[0].get<std::string>());
+  const auto [name, more] = length_name(decl.shape[0].get_ref<const std::string&>());
   const std::int64_t value = static_cast<std::int64_t>(array.shape[0]) - more;
   if (value < 0)
-    return start + " has length " + std::to_string(array.shape[0]) + ", must have " +
+    return start() + " has length " + std::to_string(array.shape[0]) + ", must have " +
            decl.shape[0].get<std::string>();
-  const auto [place, fresh] = lengths.try_emplace(name, Length{value, decl.name});
+  const auto [place, fresh] = lengths.try_emplace(name, Length{value, &decl});
   if (!fresh && place->second.value != value) {
-    return start + " has length " + std::to_string(array.shape[0]) + ", must have " +
+    return start() + " has length " + std::to_string(array.shape[0]) + ", must have " +
            std::to_string(place->second.value + more) + " (" + decl.shape[0].get<std::string>() + ", " +
            name + " = " + std::to_string(place->second.value) + " by array " +
-           in_quotes(place->second.array) + ")";
+           in_quotes(place->second.array->name) + ")";
   }
   return {};
 }

@@ -171,7 +171,7 @@ ActionKey action_key(const DagNode& node, const std::map<std::string, OutputEntr
   text += '{';
   for (const auto& [name, value] : params) {
     add_member(name);
-    text += value.dump();
+    write_value(value, text);
   }
   text += '}';
   if (node.loop) {
@@ -194,8 +194,9 @@ ActionKey action_key(const DagNode& node, const std::map<std::string, OutputEntr
     add_member("version");
     write_number(entry.type_version, text);
     add_member("digest");
-    write_string(entry.digest.hex(), text);
-    text += '}';
+    text += '"';
+    text += entry.digest.hex();
+    text += "\"}";
   }
   text += "}}";
 

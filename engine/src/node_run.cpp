@@ -157,7 +157,7 @@ class Host {
       params_ += params_.empty() ? '{' : ',';
       write_string(name, params_);
       params_ += ':';
-      params_ += value.dump();
+      write_value(value, params_);
     }
     params_ += params_.empty() ? "{}" : "}";
   }
