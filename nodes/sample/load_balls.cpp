@@ -295,6 +295,7 @@ class AxisReader {
     loaded.axis.polygon_vertices = std::move(corners);
     loaded.axis.polygon_kinds =
         std::vector<std::uint8_t>(triangles.size(), static_cast<std::uint8_t>(AxisKind::singular));
+    loaded.axis = with_sheets(std::move(loaded.axis), monitor_);
     return loaded;
   }
 

@@ -15,7 +15,7 @@ struct LoadBalls {
   LoadBallsOptions options;
 
   static void declare(NodeDecl<LoadBalls>& d) {
-    d.id("LoadBalls", 1).summary("Reads balls, or a medial axis, that another program or an export wrote.");
+    d.id("LoadBalls", 2).summary("Reads balls, or a medial axis, that another program or an export wrote.");
     d.doc(
         "Reads ma (Q-MAT, MATFP, MATTopo), sph, lines of x y z r (also CSV, or with a v in front), and PLY "
         "with a radius, each also gzipped; the content decides. Coordinates and radii stay as they are. "

@@ -570,8 +570,14 @@ MedialAxis Axis::finish() {
     offsets.push_back(static_cast<std::int64_t>(corners.size()));
     kinds.push_back(static_cast<std::uint8_t>(piece.kind));
   }
-  return {std::move(vertices), std::move(radii),   std::move(edges_),
-          std::move(offsets),  std::move(corners), std::move(kinds)};
+  MedialAxis axis;
+  axis.vertices = std::move(vertices);
+  axis.radii = std::move(radii);
+  axis.edges = std::move(edges_);
+  axis.polygon_offsets = std::move(offsets);
+  axis.polygon_vertices = std::move(corners);
+  axis.polygon_kinds = std::move(kinds);
+  return with_sheets(std::move(axis), monitor_);
 }
 
 }  // namespace

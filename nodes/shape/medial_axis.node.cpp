@@ -17,12 +17,16 @@ struct MedialAxis {
   MedialAxisOptions options;
 
   static void declare(NodeDecl<MedialAxis>& d) {
-    d.id("MedialAxis", 1).summary("The medial axis of a union of balls as a polygon complex.");
+    d.id("MedialAxis", 2).summary("The medial axis of a union of balls as a polygon complex.");
     d.doc(
         "Simplices of the alpha-shape that belong to no tetrahedron, and inside its tetrahedra the Voronoi "
         "diagram of the vertices of the union's boundary. The axis is homotopy equivalent to the union; its "
         "Euler characteristic is compared with that of the alpha-shape. Accepts every alpha-shape: empty, "
-        "flat, with cavities, of several components, of balls on a grid.");
+        "flat, with cavities, of several components, of balls on a grid. Polygons are labelled by sheets, "
+        "the "
+        "components after cutting at edges of three and more polygons, and oriented sheet by sheet; those "
+        "edges "
+        "are the seams.");
     d.avoid_when(
         "the alpha-shape is that of polar balls that were not enlarged: many balls then meet in one "
         "sample, and rounding hides the structure.");

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 #include <vector>
+
+#include "types/axis_sheets.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -46,6 +49,34 @@ std::string broken_polygon(const MedialAxis& axis, std::size_t i) {
     return name + " has the unknown kind " + std::to_string(axis.polygon_kinds[i]);
   }
   return {};
+}
+
+/// What is wrong with directions of polygons and labels of sheets and seams; all else is right.
+std::string broken_labels(const MedialAxis& axis) {
+  const AxisSheets right = axis_sheets(axis);
+  const auto differ = [](const auto& found, const auto& expected, const std::string& values,
+                         const std::string& elements) -> std::string {
+    if (found.size() != expected.size()) {
+      return std::to_string(found.size()) + " " + values + ", there are " + std::to_string(expected.size()) +
+             " " + elements;
+    }
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      if (found[i] != expected[i]) return values + " are wrong at " + std::to_string(i);
+    }
+    return {};
+  };
+  for (const std::string& broken :
+       {differ(axis.polygon_sheets, right.polygon_sheets, "sheets of polygons", "polygons"),
+        differ(axis.sheet_orientable, right.sheet_orientable, "marks of orientable sheets", "sheets"),
+        differ(axis.seams, right.seams, "seams", "edges of three and more polygons"),
+        differ(axis.seam_degrees, right.seam_degrees, "degrees of seams", "seams"),
+        differ(axis.seam_curves, right.seam_curves, "curves of seams", "seams")}) {
+    if (!broken.empty()) return broken;
+  }
+  const auto turned = std::find(right.turned.begin(), right.turned.end(), 1);
+  if (turned == right.turned.end()) return {};
+  return "polygon " + std::to_string(turned - right.turned.begin()) +
+         " faces another way than its neighbours in its sheet";
 }
 
 }  // namespace
@@ -131,7 +162,24 @@ std::string broken_invariant(const MedialAxis& axis) {
   if (twice != seen.end()) {
     return "edge " + std::to_string((*twice)[0]) + ", " + std::to_string((*twice)[1]) + " is listed twice";
   }
-  return {};
+  return broken_labels(axis);
+}
+
+MedialAxis with_sheets(MedialAxis axis, Monitor& monitor) {
+  AxisSheets sheets = axis_sheets(axis, monitor);
+  std::vector<std::int32_t> corners(axis.polygon_vertices.begin(), axis.polygon_vertices.end());
+  for (std::size_t i = 0; i < axis.polygons(); ++i) {
+    if (sheets.turned[i] == 0) continue;  // turning over keeps the first corner
+    std::reverse(corners.begin() + axis.polygon_offsets[i] + 1,
+                 corners.begin() + axis.polygon_offsets[i + 1]);
+  }
+  axis.polygon_vertices = std::move(corners);
+  axis.polygon_sheets = std::move(sheets.polygon_sheets);
+  axis.sheet_orientable = std::move(sheets.sheet_orientable);
+  axis.seams = std::move(sheets.seams);
+  axis.seam_degrees = std::move(sheets.seam_degrees);
+  axis.seam_curves = std::move(sheets.seam_curves);
+  return axis;
 }
 
 }  // namespace ballflow::geometry

@@ -67,7 +67,7 @@ class Artifact:
             shape = entry["shape"]
             arrays[name] = rows(values, shape[1]) if len(shape) == 2 else list(values)
         self.arrays = arrays
-        self.normals = self.radii = self.point_codes = self.face_codes = None
+        self.normals = self.radii = self.point_codes = self.face_codes = self.face_numbers = None
         self.points, self.edges, self.faces = [], [], []
         getattr(self, "read_" + self.type)(arrays)
         # What ma holds.
@@ -112,6 +112,7 @@ class Artifact:
         ends = a["polygon_offsets"]
         self.faces = [tuple(a["polygon_vertices"][ends[i]:ends[i + 1]]) for i in range(len(ends) - 1)]
         self.face_codes = ("kind", a["polygon_kinds"], 0)
+        self.face_numbers = ("sheet", a["polygon_sheets"], -1)
 
     def read_CoverState(self, a):
         pass
@@ -173,9 +174,10 @@ def check_ply(data, artifact):
     same(found["vertex"], artifact.table(), "vertices")
     faces = [(tuple(f),) for f in artifact.faces]
     names = ["vertex_indices"]
-    if artifact.face_codes:
-        names.append(artifact.face_codes[0])
-        faces = [(*f, c) for f, c in zip(faces, artifact.face_codes[1])]
+    for values in (artifact.face_codes, artifact.face_numbers):
+        if values:
+            names.append(values[0])
+            faces = [(*f, value) for f, value in zip(faces, values[1])]
     if faces:
         same(found["face"], (names, faces), "faces")
     if artifact.edges:
@@ -251,7 +253,7 @@ def check_vtp(data, artifact):
     same(root.attrib, {"type": "PolyData", "version": "1.0", "byte_order": "LittleEndian", "header_type": "UInt64"},
          "VTKFile")
     piece = root.find("PolyData/Piece")
-    kinds = {"Float64": "d", "Int64": "q", "UInt8": "B"}
+    kinds = {"Float64": "d", "Int64": "q", "Int32": "i", "UInt8": "B"}
     next_offset = 0
     arrays = {}
     for section in piece:
@@ -271,9 +273,10 @@ def check_vtp(data, artifact):
         expected["PointData", "radius"] = artifact.radii
     if artifact.point_codes:
         expected["PointData", artifact.point_codes[0]] = artifact.point_codes[1]
-    if artifact.face_codes:
-        name, codes, of_others = artifact.face_codes
-        expected["CellData", name] = [of_others] * (len(artifact.dots) + len(artifact.edges)) + codes
+    for values in (artifact.face_codes, artifact.face_numbers):
+        if values:
+            name, of_faces, of_others = values
+            expected["CellData", name] = [of_others] * (len(artifact.dots) + len(artifact.edges)) + of_faces
     counts = {"Strips": 0, "Points": len(artifact.points)}
     cells = {"Verts": [(v,) for v in artifact.dots], "Lines": artifact.edges, "Polys": artifact.faces}
     for section, elements in cells.items():

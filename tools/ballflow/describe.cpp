@@ -75,8 +75,8 @@ std::string comparison(const Json& s) {
 }
 
 std::string axis(const Json& s) {
-  return counted(s, "polygons", "polygon") + ", " + counted(s, "edges", "free edge") +
-         ", Euler characteristic " + number(s, "euler_characteristic");
+  return counted(s, "polygons", "polygon") + " in " + counted(s, "sheets", "sheet") + ", " +
+         counted(s, "edges", "free edge") + ", Euler characteristic " + number(s, "euler_characteristic");
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ PolyData poly_data(const MedialAxis& axis) {
   data.polygon_offsets.assign(axis.polygon_offsets.begin(), axis.polygon_offsets.end());
   data.polygon_corners = axis.polygon_vertices;
   data.polygon_codes = {"kind", axis.polygon_kinds};
+  data.polygon_numbers = {"sheet", axis.polygon_sheets};
   data.dot_and_edge_code = static_cast<std::uint8_t>(geometry::AxisKind::singular);
   std::vector<bool> used(axis.vertices.size(), false);
   for (const std::int32_t v : axis.polygon_vertices) used[static_cast<std::size_t>(v)] = true;

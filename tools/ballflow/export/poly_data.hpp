@@ -25,6 +25,12 @@ struct Codes {
   geometry::Array<std::uint8_t> values;
 };
 
+/// One number per polygon, with a name as above.
+struct Numbers {
+  std::string_view name;
+  geometry::Array<std::int32_t> values;
+};
+
 struct PolyData {
   geometry::Array<geometry::Vec3> points;  // n x 3, model units
 
@@ -40,6 +46,7 @@ struct PolyData {
   geometry::Array<std::int32_t> polygon_corners;
   Codes polygon_codes;                 // one per polygon where it has a name
   std::uint8_t dot_and_edge_code = 0;  // what polygon_codes would say of every dot and edge
+  Numbers polygon_numbers;             // one per polygon where it has a name; -1 for every dot and edge
 
   std::size_t polygons() const { return polygon_offsets.size() - 1; }
   std::span<const std::int32_t> polygon(std::size_t i) const {

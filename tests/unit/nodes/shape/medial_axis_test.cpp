@@ -15,6 +15,7 @@
 
 #include "shape/alpha_shape.hpp"
 #include "shape/union_vertices.hpp"
+#include "types/arctangent.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -460,6 +461,183 @@ TEST(medial_axis, gives_the_same_bytes_again) {
   EXPECT_EQ(first.polygon_offsets, second.polygon_offsets);
   EXPECT_EQ(first.polygon_vertices, second.polygon_vertices);
   EXPECT_EQ(first.polygon_kinds, second.polygon_kinds);
+}
+
+// --- Sheets and seams.
+
+/// What the labels say, from the definitions: every pair of polygons is looked at.
+void expect_sheets_and_seams(const MedialAxis& axis) {
+  std::map<std::array<std::int32_t, 2>, std::vector<std::pair<std::size_t, bool>>> sides;
+  for (std::size_t i = 0; i < axis.polygons(); ++i) {
+    const auto p = axis.polygon(i);
+    for (std::size_t k = 0; k < p.size(); ++k) {
+      const std::int32_t a = p[k], b = p[(k + 1) % p.size()];
+      sides[{std::min(a, b), std::max(a, b)}].emplace_back(i, a < b);
+    }
+  }
+  std::vector<std::array<std::int32_t, 2>> seams;
+  std::vector<std::size_t> root(axis.polygons());
+  std::iota(root.begin(), root.end(), 0u);
+  const auto find = [&root](std::size_t i) {
+    while (root[i] != i) i = root[i];
+    return i;
+  };
+  for (const auto& [edge, at] : sides) {
+    if (at.size() > 2) {
+      ASSERT_LT(seams.size(), axis.seams.size());
+      EXPECT_EQ(static_cast<std::size_t>(axis.seam_degrees[seams.size()]), at.size());
+      seams.push_back(edge);
+    }
+    if (at.size() != 2) continue;
+    EXPECT_EQ(axis.polygon_sheets[at[0].first], axis.polygon_sheets[at[1].first]);
+    root[find(at[0].first)] = find(at[1].first);
+    const auto sheet = static_cast<std::size_t>(axis.polygon_sheets[at[0].first]);
+    EXPECT_TRUE(axis.sheet_orientable[sheet] == 0 || at[0].second != at[1].second);
+  }
+  EXPECT_EQ(axis.seams, Array(seams));
+  std::set<std::size_t> pieces;
+  for (std::size_t i = 0; i < axis.polygons(); ++i) pieces.insert(find(i));
+  EXPECT_EQ(pieces.size(), axis.sheet_orientable.size()) << "polygons of one sheet are joined";
+}
+
+TEST(medial_axis, has_no_sheet_for_two_balls_and_one_for_three) {
+  EXPECT_EQ(axis_of({{0, 0, 0}, {3, 0, 0}}, {2.0, 1.5}).axis.sheet_orientable.size(), 0u);
+  const MedialAxis axis = axis_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, 0.9).axis;
+  EXPECT_EQ(axis.polygon_sheets, (Array<std::int32_t>{0}));
+  EXPECT_EQ(axis.sheet_orientable, (Array<std::uint8_t>{1}));
+  EXPECT_EQ(axis.seams.size(), 0u);
+}
+
+TEST(medial_axis, of_four_balls_at_a_regular_tetrahedron_has_six_sheets_and_four_seams_from_its_centre) {
+  const MedialAxis axis = axis_of({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}, 2.0).axis;
+  EXPECT_EQ(axis.sheet_orientable.size(), 6u);
+  EXPECT_EQ(axis.seams, (Array<std::array<std::int32_t, 2>>{{0, 4}, {1, 4}, {2, 4}, {3, 4}}));
+  EXPECT_EQ(axis.seam_degrees, (Array<std::int32_t>{3, 3, 3, 3}));
+  EXPECT_EQ(axis.seam_curves, (Array<std::int32_t>{0, 1, 2, 3}));
+}
+
+// Balls in rows that are shifted by half a step against each other meet in threes and never in fours: the
+// axis is the surface through their centres.
+
+TEST(medial_axis, of_balls_around_a_torus_is_one_sheet_with_two_sides) {
+  std::vector<Vec3> centers;
+  for (int i = 0; i < 70; ++i) {
+    for (int k = 0; k < 12; ++k) {
+      const double u = 2 * pi * i / 70, v = 2 * pi * (k + 0.5 * (i % 2)) / 12;
+      const double flat = 4 + 0.8 * std::cos(v);
+      centers.push_back({flat * std::cos(u), flat * std::sin(u), 0.8 * std::sin(v)});
+    }
+  }
+  const Result r = axis_of(centers, 0.3);
+  ASSERT_EQ(r.complex.betti, (Betti{1, 2, 1}));
+  ASSERT_EQ(r.complex.tetrahedra.size(), 0u);
+  EXPECT_EQ(r.axis.sheet_orientable, (Array<std::uint8_t>{1}));
+  EXPECT_EQ(r.axis.seams.size(), 0u);
+  expect_sheets_and_seams(r.axis);
+}
+
+TEST(medial_axis, of_balls_along_a_moebius_band_is_one_sheet_with_one_side) {
+  std::vector<Vec3> centers;
+  for (int i = 0; i < 72; ++i) {
+    for (int k = 0; k < 7 - i % 2; ++k) {
+      const double u = 2 * pi * i / 72, across = 0.3 * (k - 3 + 0.5 * (i % 2));
+      const double flat = 3 + across * std::cos(u / 2);
+      centers.push_back({flat * std::cos(u), flat * std::sin(u), across * std::sin(u / 2)});
+    }
+  }
+  const Result r = axis_of(centers, 0.22);
+  ASSERT_EQ(r.complex.betti, (Betti{1, 1, 0}));
+  ASSERT_EQ(r.complex.tetrahedra.size(), 0u);
+  EXPECT_EQ(r.axis.sheet_orientable, (Array<std::uint8_t>{0}));
+  EXPECT_EQ(r.axis.seams.size(), 0u);
+  expect_sheets_and_seams(r.axis);
+}
+
+TEST(medial_axis, of_three_walls_of_balls_that_meet_has_three_sheets_and_one_seam) {
+  std::vector<Vec3> centers;
+  for (int z = 0; z < 12; ++z) {
+    centers.push_back({0, 0, double(z)});
+    for (int leaf = 0; leaf < 3; ++leaf) {
+      const double angle = 2 * pi * leaf / 3 + 0.1;
+      for (int k = 1; k < 6; ++k)
+        centers.push_back({0.9 * k * std::cos(angle), 0.9 * k * std::sin(angle), z + 0.5 * (k % 2)});
+    }
+  }
+  const Result r = axis_of(centers, 0.6);
+  ASSERT_EQ(r.complex.betti, (Betti{1, 0, 0}));
+  ASSERT_EQ(r.complex.tetrahedra.size(), 0u);
+  EXPECT_EQ(r.axis.sheet_orientable, (Array<std::uint8_t>{1, 1, 1}));
+  EXPECT_EQ(r.axis.seams.size(), 11u);
+  for (const std::int32_t curve : r.axis.seam_curves) EXPECT_EQ(curve, 0);
+  for (const std::int32_t degree : r.axis.seam_degrees) EXPECT_EQ(degree, 3);
+  expect_sheets_and_seams(r.axis);
+}
+
+TEST(medial_axis, labels_the_sheets_and_seams_of_random_unions_as_they_are_defined) {
+  std::size_t seams = 0, sheets_of_several = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(10000 + seed);
+    const BallSet balls = random_balls(random, 0.05, 0.2 + 0.3 * random.unit(), seed % 3 == 0 ? 0.1 : 1);
+    const MedialAxis axis = axis_of(balls.centers, balls.radii).axis;
+    expect_sheets_and_seams(axis);
+    seams += axis.seams.size();
+    if (axis.sheet_orientable.size() < axis.polygons()) ++sheets_of_several;
+  }
+  EXPECT_GT(seams, 1000u);
+  EXPECT_GT(sheets_of_several, 20u);
+}
+
+/// Sheets as sets of polygons, polygons as corners that begin with the least one; sheets turned over as a
+/// whole are the same.
+std::set<std::set<std::vector<Vec3>>> sheets_in_space(const MedialAxis& axis) {
+  std::vector<std::array<std::set<std::vector<Vec3>>, 2>> sheets(axis.sheet_orientable.size());
+  for (std::size_t i = 0; i < axis.polygons(); ++i) {
+    std::vector<Vec3> corners;
+    for (const std::int32_t v : axis.polygon(i))
+      corners.push_back(axis.vertices[static_cast<std::size_t>(v)]);
+    for (auto& faces : sheets[static_cast<std::size_t>(axis.polygon_sheets[i])]) {
+      std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+      faces.insert(corners);
+      std::reverse(corners.begin(), corners.end());
+    }
+  }
+  std::set<std::set<std::vector<Vec3>>> all;
+  for (const auto& [front, back] : sheets) all.insert(std::min(front, back));
+  return all;
+}
+
+TEST(medial_axis, has_the_same_sheets_and_seams_in_space_whatever_the_order_of_the_balls) {
+  std::size_t compared = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(11000 + seed);
+    // Without tetrahedra all vertices are centres of balls, and no rounding depends on the order.
+    BallSet balls = random_balls(random, 0.05, 0.18, seed % 2 == 0 ? 0 : 0.02);
+    const Result a = axis_of(balls.centers, balls.radii);
+    for (std::size_t i = balls.radii.size(); i > 1; --i) {
+      const std::size_t k = random.below(i);
+      std::swap(balls.centers[i - 1], balls.centers[k]);
+      std::swap(balls.radii[i - 1], balls.radii[k]);
+    }
+    const Result b = axis_of(balls.centers, balls.radii);
+    const auto seams_in_space = [](const MedialAxis& axis) {
+      std::map<std::set<Vec3>, std::int32_t> seams;
+      for (std::size_t i = 0; i < axis.seams.size(); ++i) {
+        const auto [u, v] = axis.seams[i];
+        seams[{axis.vertices[static_cast<std::size_t>(u)], axis.vertices[static_cast<std::size_t>(v)]}] =
+            axis.seam_degrees[i];
+      }
+      return seams;
+    };
+    EXPECT_EQ(a.axis.sheet_orientable.size(), b.axis.sheet_orientable.size());
+    EXPECT_EQ(a.axis.seams.size(), b.axis.seams.size());
+    if (!a.complex.tetrahedra.empty()) continue;
+    EXPECT_EQ(sheets_in_space(a.axis), sheets_in_space(b.axis));
+    EXPECT_EQ(seams_in_space(a.axis), seams_in_space(b.axis));
+    compared += a.axis.polygons();
+  }
+  EXPECT_GT(compared, 100u);
 }
 
 TEST(medial_axis, takes_a_complex_without_tetrahedra_as_it_is) {

@@ -247,7 +247,7 @@ TEST(export_axis, keeps_polygons_edges_and_radii) {
   for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i].push_back(axis.radii[i]);
   const Ply ply = read_ply(exported(axis, "ply"));
   EXPECT_EQ(ply.rows.at("vertex"), vertices);
-  EXPECT_EQ(ply.rows.at("face"), (Rows{{3, 0, 1, 2, 0}, {5, 4, 3, 2, 1, 0, 1}}));
+  EXPECT_EQ(ply.rows.at("face"), (Rows{{3, 0, 1, 2, 0, 0}, {5, 4, 3, 2, 1, 0, 1, 0}}));
   EXPECT_EQ(ply.rows.at("edge"), (Rows{{0, 5}}));
 
   const std::string obj = exported(axis, "obj");
@@ -272,9 +272,10 @@ TEST(export_axis, writes_polygons_of_more_corners_than_a_byte_counts) {
   axis.polygon_offsets = {0, 300};
   axis.polygon_vertices = corners;
   axis.polygon_kinds = {1};
+  axis = with_sheets(std::move(axis));
   const Rows faces = read_ply(exported(axis, "ply")).rows.at("face");
   ASSERT_EQ(faces.size(), 1u);
-  EXPECT_EQ(faces[0].size(), 302u);
+  EXPECT_EQ(faces[0].size(), 303u);
   EXPECT_EQ(faces[0][300], 299);
 }
 

@@ -64,7 +64,7 @@ inline geometry::MedialAxis sample_axis() {
   axis.polygon_offsets = {0, 3, 8};
   axis.polygon_vertices = {0, 1, 2, 4, 3, 2, 1, 0};
   axis.polygon_kinds = {0, 1};
-  return axis;
+  return with_sheets(std::move(axis));
 }
 
 }  // namespace ballflow::test

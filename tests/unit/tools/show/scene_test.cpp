@@ -87,6 +87,25 @@ TEST(scene, shows_of_a_complex_only_what_can_be_seen) {
   EXPECT_EQ(layers[2].vertices[0], (Vec3{9, 9, 9}));
 }
 
+TEST(scene, colours_sheets_of_a_medial_axis_that_meet_differently_and_shows_their_seams) {
+  MedialAxis axis;  // three leaves of a book, the third of two triangles
+  axis.vertices = std::vector<Vec3>{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, -1, 0}, {-2, -2, 1}};
+  axis.radii = std::vector<double>{1, 2, 3, 4, 5, 6};
+  axis.polygon_offsets = std::vector<std::int64_t>{0, 3, 6, 9, 12};
+  axis.polygon_vertices = std::vector<std::int32_t>{0, 1, 2, 0, 1, 3, 0, 1, 4, 1, 4, 5};
+  axis.polygon_kinds = std::vector<std::uint8_t>{0, 0, 0, 0};
+  const auto layers = shown(with_sheets(axis));
+  ASSERT_EQ(names(layers), (Names{"medial axis", "medial axis seams"}));
+  const Attribute* sheet = layers[0].find("sheet");
+  ASSERT_NE(sheet, nullptr);
+  EXPECT_FALSE(sheet->per_vertex);
+  EXPECT_EQ(sheet->values, (std::vector<double>{0, 1, 2, 2}));
+  EXPECT_GT(sheet->categories.size(), 2u);
+  EXPECT_EQ(layers[1].segments, (std::vector<std::array<std::uint32_t, 2>>{{0, 1}}));
+  EXPECT_EQ(layers[1].find("degree")->values, (std::vector<double>{3}));
+  EXPECT_FALSE(layers[1].visible);
+}
+
 TEST(scene, cuts_polygons_of_a_medial_axis_into_triangles_and_shows_loose_ends) {
   MedialAxis axis;
   axis.vertices = std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 2, 0}, {7, 7, 7}};
@@ -95,7 +114,7 @@ TEST(scene, cuts_polygons_of_a_medial_axis_into_triangles_and_shows_loose_ends) 
   axis.polygon_offsets = std::vector<std::int64_t>{0, 4};
   axis.polygon_vertices = std::vector<std::int32_t>{0, 1, 2, 3};
   axis.polygon_kinds = std::vector<std::uint8_t>{1};
-  const auto layers = shown(axis);
+  const auto layers = shown(with_sheets(axis));
   ASSERT_EQ(names(layers), (Names{"medial axis", "medial axis edges", "medial axis points"}));
   EXPECT_EQ(layers[0].elements(), 2u);
   EXPECT_EQ(layers[0].find("kind")->values, (std::vector<double>{1, 1}));

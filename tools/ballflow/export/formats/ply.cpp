@@ -37,6 +37,7 @@ void write_ply(const PolyData& data, OutputFile& out) {
     out << "element face " << data.polygons() << "\nproperty list " << (small ? "uchar" : "int")
         << " int vertex_indices\n";
     code_property(out, data.polygon_codes);
+    if (!data.polygon_numbers.name.empty()) out << "property int " << data.polygon_numbers.name << '\n';
   }
   if (!data.edges.empty()) {
     out << "element edge " << data.edges.size() << "\nproperty int vertex1\nproperty int vertex2\n";
@@ -58,6 +59,7 @@ void write_ply(const PolyData& data, OutputFile& out) {
     }
     for (const std::int32_t v : corners) out.raw(v);
     if (!data.polygon_codes.name.empty()) out.raw(data.polygon_codes.values[i]);
+    if (!data.polygon_numbers.name.empty()) out.raw(data.polygon_numbers.values[i]);
   }
   for (const Edge& edge : data.edges) {
     for (const std::int32_t v : edge) out.raw(v);

@@ -88,11 +88,18 @@ void write_vtp(const PolyData& data, OutputFile& out) {
   head.close("PointData");
 
   head.open("CellData");
+  const std::size_t others = data.dots.size() + data.edges.size();
   if (const auto& codes = data.polygon_codes; !codes.name.empty()) {
-    const std::size_t others = data.dots.size() + data.edges.size();
     head.array("UInt8", codes.name, 1, others + codes.values.size(), [&data, others](OutputFile& to) {
       for (std::size_t i = 0; i < others; ++i) to.raw(data.dot_and_edge_code);
       elements(data.polygon_codes.values)(to);
+    });
+  }
+  if (const auto& numbers = data.polygon_numbers; !numbers.name.empty()) {
+    const std::size_t bytes = (others + numbers.values.size()) * sizeof(std::int32_t);
+    head.array("Int32", numbers.name, 1, bytes, [&data, others](OutputFile& to) {
+      for (std::size_t i = 0; i < others; ++i) to.raw(std::int32_t{-1});
+      elements(data.polygon_numbers.values)(to);
     });
   }
   head.close("CellData");
