@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace ballflow::geometry {
@@ -50,6 +51,7 @@ struct FirstHomology::Skeleton {
           queue.push_back(v);
         }
       }
+      outwards.insert(outwards.end(), queue.begin(), queue.end());
       ++components;
     }
   }
@@ -63,7 +65,7 @@ struct FirstHomology::Skeleton {
   }
 
   std::vector<std::size_t> first_edge, begin;
-  std::vector<std::int32_t> neighbors, parent, depth, component;
+  std::vector<std::int32_t> neighbors, parent, depth, component, outwards;
   std::int32_t components = 0;
 };
 
@@ -104,16 +106,11 @@ FirstHomology::FirstHomology(Skeleton skeleton, const SimplicialComplex& complex
   first_edge_ = std::move(skeleton.first_edge);
   begin_ = std::move(skeleton.begin);
   neighbors_ = std::move(skeleton.neighbors);
+  outwards_ = std::move(skeleton.outwards);
   parent_ = std::move(skeleton.parent);
   depth_ = std::move(skeleton.depth);
   component_ = std::move(skeleton.component);
   components_ = skeleton.components;
-  // Two computations that have nothing in common: linear algebra here, components and cavities there.
-  if (static_cast<std::int64_t>(dimension()) != complex.betti[1]) {
-    throw std::logic_error("the complex has " + std::to_string(dimension()) +
-                           " independent loops, but its Betti number says " +
-                           std::to_string(complex.betti[1]));
-  }
 }
 
 std::int64_t FirstHomology::edge(std::int32_t u, std::int32_t v) const {

@@ -31,6 +31,10 @@ class FirstHomology {
   std::int32_t component(std::int32_t v) const { return component_[static_cast<std::size_t>(v)]; }
   std::int32_t components() const { return components_; }
 
+  /// The forest: vertices in an order in which parents come first; -1 is the parent of a root.
+  const std::vector<std::int32_t>& outwards() const { return outwards_; }
+  std::int32_t parent(std::int32_t v) const { return parent_[static_cast<std::size_t>(v)]; }
+
   /// Vertices joined with u by an edge, ascending.
   std::span<const std::int32_t> around(std::int32_t u) const;
 
@@ -43,6 +47,7 @@ class FirstHomology {
   std::vector<std::size_t> first_edge_;  // per vertex u: edges uv with v > u begin here
   std::vector<std::size_t> begin_;       // per vertex: where its neighbours begin
   std::vector<std::int32_t> neighbors_;
+  std::vector<std::int32_t> outwards_;
   std::vector<std::int32_t> parent_;  // in the forest; -1 at roots
   std::vector<std::int32_t> depth_;
   std::vector<std::int32_t> component_;

@@ -1,6 +1,9 @@
 #include "shape/inclusion_homology.hpp"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "shape/alpha_shape.hpp"
 
@@ -17,38 +20,62 @@ std::int64_t distinct(std::vector<std::int32_t> values) {
 }  // namespace
 
 UnionOfBalls::UnionOfBalls(const Balls& balls, Monitor& monitor)
-    : balls_(balls), complex_(alpha_shape(balls, {}, monitor)) {
-  loops_ = std::make_unique<FirstHomology>(complex_, monitor);
+    : UnionOfBalls(balls, alpha_shape(balls, {}, monitor), monitor) {}
+
+UnionOfBalls::UnionOfBalls(const Balls& balls, SimplicialComplex complex, Monitor& monitor)
+    : balls_(balls),
+      complex_(std::make_unique<const SimplicialComplex>(std::move(complex))),
+      loops_(std::make_unique<FirstHomology>(*complex_, monitor)) {
+  // Two computations that have nothing in common: linear algebra here, components and cavities there.
+  if (static_cast<std::int64_t>(loops_->dimension()) != complex_->betti[1]) {
+    throw std::logic_error("the complex has " + std::to_string(loops_->dimension()) +
+                           " independent loops, but its Betti number says " +
+                           std::to_string(complex_->betti[1]));
+  }
 }
 
 const RegularCells& UnionOfBalls::cells() const {
   if (!cells_) {
-    cells_ = std::make_unique<RegularCells>(regular_cells(complex_.centers, complex_.weights, no_monitor()));
+    cells_ =
+        std::make_unique<RegularCells>(regular_cells(complex_->centers, complex_->weights, no_monitor()));
   }
   return *cells_;
 }
 
 const Voids& UnionOfBalls::voids(Monitor& monitor) const {
-  if (!voids_) voids_ = std::make_unique<Voids>(complex_, cells(), monitor);
+  if (!voids_) voids_ = std::make_unique<Voids>(*complex_, cells(), monitor);
   return *voids_;
 }
 
 const PowerWalk& UnionOfBalls::walk() const {
-  if (!walk_) walk_ = std::make_unique<PowerWalk>(complex_.centers, complex_.weights, cells());
+  if (!walk_) walk_ = std::make_unique<PowerWalk>(complex_->centers, complex_->weights, cells());
   return *walk_;
 }
 
 std::int32_t UnionOfBalls::vertex_at(std::int32_t ball) const {
   const std::int32_t start = walk().contains(ball) ? ball : walk().any();
-  return walk().cell_of(complex_.centers[at(ball)], start);
+  return walk().cell_of(complex_->centers[at(ball)], start);
 }
 
 InclusionHomology UnionOfBalls::inclusion_of(std::span<const std::int32_t> part, Monitor& monitor) const {
   return Inclusion(*this, part, monitor).homology();
 }
 
+bool UnionOfBalls::isomorphic_to(std::span<const std::int32_t> part, Monitor& monitor) const {
+  const Balls balls = select(balls_, part);
+  SimplicialComplex complex = alpha_shape(balls, {}, monitor);
+  if (complex.betti != complex_->betti) return false;
+  return Inclusion(*this, part, UnionOfBalls(balls, std::move(complex), monitor), monitor)
+      .homology()
+      .isomorphism();
+}
+
 Inclusion::Inclusion(const UnionOfBalls& whole, std::span<const std::int32_t> ids, Monitor& monitor)
-    : whole_(whole), ids_(ids.begin(), ids.end()), part_(select(whole.balls(), ids), monitor) {
+    : Inclusion(whole, ids, UnionOfBalls(select(whole.balls(), ids), monitor), monitor) {}
+
+Inclusion::Inclusion(const UnionOfBalls& whole, std::span<const std::int32_t> ids, UnionOfBalls part,
+                     Monitor& monitor)
+    : whole_(whole), ids_(ids.begin(), ids.end()), part_(std::move(part)) {
   homology_.part = part_.complex().betti;
   homology_.whole = whole.complex().betti;
 
@@ -86,6 +113,17 @@ std::vector<std::int32_t> Inclusion::image_of(const std::vector<std::int32_t>& l
     here = whole_.walk().along(center(loop[i]), center(loop[(i + 1) % loop.size()]), here, visit);
   }
   whole_.walk().around_point(center(loop.front()), here, start, visit);
+  return sum;
+}
+
+std::vector<std::int32_t> Inclusion::along_edge(std::int32_t u, std::int32_t v) const {
+  const Vec3 p = part_.balls().centers[at(u)], q = part_.balls().centers[at(v)];
+  std::vector<std::int32_t> sum;
+  const auto visit = [&](std::int32_t a, std::int32_t b) {
+    sum = binary_sum(sum, whole_.loops().on_edge(a, b));
+  };
+  const std::int32_t there = whole_.walk().along(p, q, whole_.vertex_at(id(u)), visit);
+  whole_.walk().around_point(q, there, whole_.vertex_at(id(v)), visit);
   return sum;
 }
 

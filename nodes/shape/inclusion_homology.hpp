@@ -1,11 +1,11 @@
-// What the inclusion of one union of balls in another does to components, loops and cavities.
+// What the inclusion of one union of balls in another does to components, loops and cavities: the maps
+// H_k(U*; Z/2) -> H_k(U+; Z/2), k = 0, 1, 2, by their ranks.
 //
 // Notation: B+ is a set of balls, B* a subset of it, U+ and U* their unions, K+ and K* the dual complexes.
 // K* is no part of K+, because power cells change when balls are removed; so homology is compared through
 // points and paths that lie in both unions.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -18,20 +18,9 @@
 #include "types/balls.hpp"
 #include "types/monitor.hpp"
 #include "types/simplicial_complex.hpp"
-#include "types/topology_table.hpp"
+#include "types/topology_check.hpp"
 
 namespace ballflow::geometry {
-
-/// The maps H_k(U*; Z/2) -> H_k(U+; Z/2), k = 0, 1, 2, by their ranks.
-struct InclusionHomology {
-  Betti part{0, 0, 0};   // of U*
-  Betti whole{0, 0, 0};  // of U+
-  Betti rank{0, 0, 0};
-
-  /// All three maps are isomorphisms.
-  bool isomorphism() const { return part == whole && rank == whole; }
-  friend bool operator==(const InclusionHomology&, const InclusionHomology&) = default;
-};
 
 /// A union of balls, prepared for being compared with unions of subsets of its balls.
 ///
@@ -47,9 +36,11 @@ class UnionOfBalls {
  public:
   /// Any balls that keep their invariants, as for alpha_shape; radii are taken as they are.
   UnionOfBalls(const Balls& balls, Monitor& monitor);
+  /// The same with the alpha-shape of the balls, where it is known.
+  UnionOfBalls(const Balls& balls, SimplicialComplex complex, Monitor& monitor);
 
   const Balls& balls() const { return balls_; }
-  const SimplicialComplex& complex() const { return complex_; }
+  const SimplicialComplex& complex() const { return *complex_; }
   const FirstHomology& loops() const { return *loops_; }
   /// Made when first asked for.
   const Voids& voids(Monitor& monitor) const;
@@ -58,12 +49,14 @@ class UnionOfBalls {
   std::int32_t vertex_at(std::int32_t ball) const;
 
   InclusionHomology inclusion_of(std::span<const std::int32_t> part, Monitor& monitor) const;
+  /// inclusion_of(part).isomorphism(), sooner where it is false.
+  bool isomorphic_to(std::span<const std::int32_t> part, Monitor& monitor) const;
 
  private:
   const RegularCells& cells() const;
 
   Balls balls_;
-  SimplicialComplex complex_;
+  std::unique_ptr<const SimplicialComplex> complex_;  // what voids refer to, wherever this object moves
   std::unique_ptr<FirstHomology> loops_;
   mutable std::unique_ptr<RegularCells> cells_;
   mutable std::unique_ptr<Voids> voids_;
@@ -74,10 +67,17 @@ class UnionOfBalls {
 class Inclusion {
  public:
   Inclusion(const UnionOfBalls& whole, std::span<const std::int32_t> ids, Monitor& monitor);
+  /// The same with the union of the balls `ids`, where it is known.
+  Inclusion(const UnionOfBalls& whole, std::span<const std::int32_t> ids, UnionOfBalls part,
+            Monitor& monitor);
 
   const InclusionHomology& homology() const { return homology_; }
   const UnionOfBalls& part() const { return part_; }
   std::int32_t id(std::int32_t part_ball) const { return ids_[static_cast<std::size_t>(part_ball)]; }
+
+  /// From the power cell of U+ at the centre of a ball of the part to that at the centre of a ball that it
+  /// meets: the sum of the cocycles on the steps.
+  std::vector<std::int32_t> along_edge(std::int32_t u, std::int32_t v) const;
 
   /// Per component of U*: the component of U+ that it lies in.
   const std::vector<std::int32_t>& component_image() const { return component_image_; }
