@@ -16,6 +16,7 @@
 #include "types/point_set.hpp"
 #include "types/pole_set.hpp"
 #include "types/simplicial_complex.hpp"
+#include "types/topology_table.hpp"
 #include "types/triangle_mesh.hpp"
 
 namespace ballflow {
@@ -84,6 +85,11 @@ struct TypeOf<geometry::MassProperties> {
 template <>
 struct TypeOf<geometry::SimplicialComplex> {
   static void declare(TypeDecl<geometry::SimplicialComplex>& d);
+};
+
+template <>
+struct TypeOf<geometry::TopologyTable> {
+  static void declare(TypeDecl<geometry::TopologyTable>& d);
 };
 
 template <>

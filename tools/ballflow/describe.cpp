@@ -119,6 +119,7 @@ std::string describe(const OutputEntry& output) {
       {"Comparison", comparison},
       {"SimplicialComplex", complex},
       {"MedialAxis", axis},
+      {"TopologyTable", [](const Json& s) { return s.at("words").get<std::string>(); }},
   };
   const Json summary = Json::parse(output.summary, nullptr, false);
   if (!summary.is_object()) return output.type;

@@ -14,12 +14,12 @@
 #include "gudhi_oracle.hpp"
 #include "shape/regular_cells.hpp"
 #include "test_data.hpp"
+#include "types/topology_table.hpp"
 
 namespace ballflow::geometry {
 namespace {
 
 using Simplices = std::vector<std::vector<std::int32_t>>;
-using Betti = std::array<std::int64_t, 3>;
 
 Balls make_balls(std::vector<Vec3> centers, std::vector<double> radii) {
   return {std::move(centers), std::move(radii), {}, {}};

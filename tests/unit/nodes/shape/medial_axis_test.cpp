@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "binary_oracle.hpp"
 #include "shape/alpha_shape.hpp"
 #include "shape/union_vertices.hpp"
 #include "types/arctangent.hpp"
@@ -20,7 +21,7 @@
 namespace ballflow::geometry {
 namespace {
 
-using Betti = std::array<std::int64_t, 3>;
+using test::betti_of;
 
 class Listener final : public Monitor {
  public:
@@ -50,50 +51,6 @@ Result axis_of(const std::vector<Vec3>& centers, double radius) {
 
 std::int64_t count(const MedialAxis& axis, AxisKind kind) {
   return std::count(axis.polygon_kinds.begin(), axis.polygon_kinds.end(), static_cast<std::uint8_t>(kind));
-}
-
-/// Rank over Z/2 of a matrix given by its columns.
-std::int64_t rank(std::vector<std::set<std::int64_t>> columns) {
-  std::map<std::int64_t, std::size_t> pivots;
-  std::int64_t result = 0;
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    auto& column = columns[i];
-    while (!column.empty()) {
-      const auto [pivot, is_new] = pivots.emplace(*column.rbegin(), i);
-      if (is_new) {
-        ++result;
-        break;
-      }
-      for (const std::int64_t row : columns[pivot->second]) {
-        if (!column.insert(row).second) column.erase(row);
-      }
-    }
-  }
-  return result;
-}
-
-/// Betti numbers of the polygon complex by linear algebra over Z/2.
-Betti betti_of(const MedialAxis& axis) {
-  std::map<std::array<std::int32_t, 2>, std::int64_t> edges;
-  const auto edge = [&edges](std::int32_t a, std::int32_t b) {
-    return edges.emplace(std::array{std::min(a, b), std::max(a, b)}, static_cast<std::int64_t>(edges.size()))
-        .first->second;
-  };
-  std::vector<std::set<std::int64_t>> polygons;
-  for (std::size_t i = 0; i < axis.polygons(); ++i) {
-    const auto p = axis.polygon(i);
-    std::set<std::int64_t> sides;
-    for (std::size_t k = 0; k < p.size(); ++k) sides.insert(edge(p[k], p[(k + 1) % p.size()]));
-    polygons.push_back(sides);
-  }
-  for (const auto& e : axis.edges) edge(e[0], e[1]);
-  std::vector<std::set<std::int64_t>> ends(edges.size());
-  for (const auto& [e, id] : edges) ends[static_cast<std::size_t>(id)] = {e[0], e[1]};
-  const auto v = static_cast<std::int64_t>(axis.vertices.size());
-  const auto e = static_cast<std::int64_t>(edges.size());
-  const auto f = static_cast<std::int64_t>(polygons.size());
-  const std::int64_t r1 = rank(ends), r2 = rank(polygons);
-  return {v - r1, e - r1 - r2, f - r2};
 }
 
 /// A random number in [0, 1), the same everywhere.

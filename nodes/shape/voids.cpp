@@ -1,0 +1,153 @@
+#include "shape/voids.hpp"
+
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+namespace ballflow::geometry {
+namespace {
+
+using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
+using Point = Exact::Point_3;
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+Point exact(Vec3 p) { return {p.x, p.y, p.z}; }
+
+/// The point that has equal power to four balls.
+Point equal_power(const SimplicialComplex& complex, const Voids::Cell& cell) {
+  const auto ball = [&](std::size_t k) {
+    return Exact::Weighted_point_3(exact(complex.centers[at(cell[k])]), complex.weights[at(cell[k])]);
+  };
+  return Exact().construct_weighted_circumcenter_3_object()(ball(0), ball(1), ball(2), ball(3));
+}
+
+bool finite(const Voids::Cell& cell) {
+  return std::none_of(cell.begin(), cell.end(), [](std::int32_t v) { return v < 0; });
+}
+
+Voids::Cell sorted(Voids::Cell cell) {
+  std::sort(cell.begin(), cell.end());
+  return cell;
+}
+
+}  // namespace
+
+Voids::Voids(const SimplicialComplex& complex, const RegularCells& cells, Monitor& monitor)
+    : complex_(complex), cells_(cells) {
+  cells_of_.resize(1);
+  if (cells.dimension < 3) return;
+  Lookout look(monitor);
+  const auto has = [](const auto& list, const auto& simplex) {
+    return std::binary_search(list.begin(), list.end(), simplex);
+  };
+  const std::size_t n = cells.size();
+  std::vector<bool> in_complex(n);
+  for (std::size_t c = 0; c < n; ++c) {
+    look(32);
+    in_complex[c] = finite(cells.cells[c]) && has(complex.tetrahedra, sorted(cells.cells[c]));
+  }
+  // Flood every void from its first cell.
+  label_.assign(n, -1);
+  std::vector<std::vector<std::size_t>> members;
+  std::vector<std::size_t> queue;
+  std::size_t outside = 0;
+  for (std::size_t start = 0; start < n; ++start) {
+    if (in_complex[start] || label_[start] >= 0) continue;
+    const auto label = static_cast<std::int32_t>(members.size());
+    label_[start] = label;
+    queue.assign(1, start);
+    for (std::size_t i = 0; i < queue.size(); ++i) {
+      const std::size_t c = queue[i];
+      look(128);
+      for (std::size_t k = 0; k < 4; ++k) {
+        const std::size_t next = at(cells.neighbors[c][k]);
+        if (in_complex[next] || label_[next] >= 0) continue;
+        const Cell& cell = cells.cells[c];
+        std::array<std::int32_t, 3> facet{cell[(k + 1) & 3], cell[(k + 2) & 3], cell[(k + 3) & 3]};
+        std::sort(facet.begin(), facet.end());
+        if (facet[0] >= 0 && has(complex.triangles, facet)) continue;
+        label_[next] = label;
+        queue.push_back(next);
+      }
+    }
+    if (std::any_of(queue.begin(), queue.end(), [&](std::size_t c) { return !finite(cells.cells[c]); })) {
+      outside = members.size();
+    }
+    members.push_back(queue);
+  }
+  // Number them by their smallest cells: the order of the cells of a triangulation means nothing.
+  std::vector<std::pair<std::vector<Cell>, std::int32_t>> inner;
+  for (std::size_t m = 0; m < members.size(); ++m) {
+    std::vector<Cell> list;
+    for (const std::size_t c : members[m]) {
+      if (finite(cells.cells[c])) list.push_back(sorted(cells.cells[c]));
+    }
+    std::sort(list.begin(), list.end());
+    if (m == outside) {
+      cells_of_[0] = std::move(list);
+    } else {
+      inner.emplace_back(std::move(list), static_cast<std::int32_t>(m));
+    }
+  }
+  std::sort(inner.begin(), inner.end(), [](const auto& a, const auto& b) { return a.first[0] < b.first[0]; });
+  std::vector<std::int32_t> number(members.size(), outer);
+  for (auto& [list, label] : inner) {
+    number[at(label)] = count();
+    cells_of_.push_back(std::move(list));
+  }
+  for (std::int32_t& label : label_) {
+    if (label >= 0) label = number[at(label)];
+  }
+}
+
+std::vector<std::int32_t> Voids::inside(const Voids& other) const {
+  std::vector<std::int32_t> result{outer};
+  for (std::int32_t v = 1; v < count(); ++v) result.push_back(located(cells_of(v).front(), other));
+  return result;
+}
+
+/// A vertex of the power diagram of this union lies outside of it, in the void of its cell, hence outside of
+/// `other`, in the void of the cell of the triangulation of `other` that it lies in: the dual complex of
+/// `other` lies in the union `other`.
+std::int32_t Voids::located(const Cell& orthogonal_to, const Voids& other) const {
+  if (other.label_.empty()) return outer;
+  const Point point = equal_power(complex_, orthogonal_to);
+  const auto corner = [&](std::int32_t v) { return exact(other.complex_.centers[at(v)]); };
+  // Walk through facets that separate the cell from the point; regular triangulations have no circles.
+  std::size_t c = 0;
+  while (!finite(other.cells_.cells[c])) ++c;
+  for (;;) {
+    const Cell& cell = other.cells_.cells[c];
+    if (!finite(cell)) return outer;
+    const Point p[4] = {corner(cell[0]), corner(cell[1]), corner(cell[2]), corner(cell[3])};
+    std::size_t k = 0;
+    for (; k < 4; ++k) {
+      Point q[4] = {p[0], p[1], p[2], p[3]};
+      q[k] = point;
+      if (CGAL::orientation(q[0], q[1], q[2], q[3]) == CGAL::NEGATIVE) break;
+    }
+    if (k == 4) break;
+    c = at(other.cells_.neighbors[c][k]);
+  }
+  if (other.label_[c] < 0)
+    throw std::logic_error("a point outside of a union of balls lies in its dual complex");
+  return other.label_[c];
+}
+
+PowerVertex power_vertex(const SimplicialComplex& complex, const Voids::Cell& cell) {
+  const Point p = equal_power(complex, cell);
+  const Exact::FT power = CGAL::squared_distance(p, exact(complex.centers[at(cell[0])])) -
+                          Exact::FT(complex.weights[at(cell[0])]);
+  // The double next to the exact number, whatever filters have found out so far.
+  const auto rounded = [](const Exact::FT& x) {
+    CGAL::exact(x);
+    return CGAL::to_double(x);
+  };
+  return {{rounded(p.x()), rounded(p.y()), rounded(p.z())}, rounded(power)};
+}
+
+}  // namespace ballflow::geometry
