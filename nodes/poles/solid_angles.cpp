@@ -35,6 +35,7 @@ SolidAngles::SolidAngles(std::span<const Vec3> vertices, std::span<const Triangl
   if (triangles.empty()) return;
   MedianTree tree(vertices, triangles, monitor);
   nodes_.resize(MedianTree::size(triangles.size()));
+  corners_.resize(triangles.size());
   const auto corner = [&](std::int32_t t, std::size_t k) { return vertices[at(triangles[at(t)][k])]; };
   const auto leaf = [&](std::size_t index, const Box& box, std::size_t first, std::size_t last) {
     Node& node = nodes_[index];
@@ -42,12 +43,15 @@ SolidAngles::SolidAngles(std::span<const Vec3> vertices, std::span<const Triangl
     node.count = static_cast<std::int32_t>(last - first);
     Vec3 weighted;
     for (std::size_t i = first; i < last; ++i) {
-      const Vec3 a = corner(tree.order[i], 0), b = corner(tree.order[i], 1), c = corner(tree.order[i], 2);
-      const Vec3 normal = 0.5 * cross(b - a, c - a);
-      const double area = length(normal);
-      node.normal = node.normal + normal;
-      node.area += area;
-      weighted = weighted + area / 3 * (a + b + c);
+      Corners& t = corners_[i];
+      t.a = corner(tree.order[i], 0), t.b = corner(tree.order[i], 1), t.c = corner(tree.order[i], 2);
+      t.normal = 0.5 * cross(t.b - t.a, t.c - t.a);
+      t.area = length(t.normal);
+      t.centroid = 1.0 / 3 * (t.a + t.b + t.c);
+      t.radius = std::max({distance(t.a, t.centroid), distance(t.b, t.centroid), distance(t.c, t.centroid)});
+      node.normal = node.normal + t.normal;
+      node.area += t.area;
+      weighted = weighted + t.area * t.centroid;
     }
     node.centroid = node.area > 0 ? 1 / node.area * weighted : 0.5 * (box.lower + box.upper);
     node.radius = farthest_corner(box, node.centroid);
@@ -63,8 +67,6 @@ SolidAngles::SolidAngles(std::span<const Vec3> vertices, std::span<const Triangl
     node.radius = farthest_corner(box, node.centroid);
   };
   tree.build(0, 0, triangles.size(), leaf, inner);
-  corners_.reserve(triangles.size());
-  for (const std::int32_t t : tree.order) corners_.push_back({corner(t, 0), corner(t, 1), corner(t, 2)});
 }
 
 SolidAngles::Sum SolidAngles::sum(Vec3 point, double tolerance) const {
@@ -73,18 +75,27 @@ SolidAngles::Sum SolidAngles::sum(Vec3 point, double tolerance) const {
   return total;
 }
 
+// Leaves the cluster out or adds it as a dipole when that is exact enough. Every cluster may take a share of
+// the tolerance in proportion to its area.
+bool SolidAngles::add_far(const Cluster& cluster, Vec3 point, double tolerance, Sum& sum) const {
+  const Vec3 to = cluster.centroid - point;
+  const double d = length(to);
+  const double gap = d - cluster.radius;
+  if (!(gap > 0 && tolerance > 0)) return false;
+  const double sphere = 4 * pi * gap * gap;
+  if (nodes_[0].area <= tolerance * sphere) {
+    sum.error += cluster.area / sphere;
+    return true;
+  }
+  if (!(cluster.radius * nodes_[0].area <= tolerance * 2 * pi * gap * gap * gap)) return false;
+  sum.value += dot(cluster.normal, to) / (4 * pi * d * d * d);
+  sum.error += cluster.area * cluster.radius / (2 * pi * gap * gap * gap);
+  return true;
+}
+
 void SolidAngles::add(std::int32_t index, Vec3 point, double tolerance, Sum& sum) const {
   const Node& node = nodes_[at(index)];
-  const Vec3 to = node.centroid - point;
-  const double d = length(to);
-  // Every cluster may take a share of the tolerance in proportion to its area.
-  const double gap = d - node.radius;
-  const double room = tolerance * 2 * pi * gap * gap * gap;
-  if (gap > 0 && tolerance > 0 && node.radius * nodes_[0].area <= room) {
-    sum.value += dot(node.normal, to) / (4 * pi * d * d * d);
-    sum.error += node.area * node.radius / (2 * pi * gap * gap * gap);
-    return;
-  }
+  if (add_far(node, point, tolerance, sum)) return;
   if (node.count == 0) {
     add(index + 1, point, tolerance, sum);
     add(node.link, point, tolerance, sum);
@@ -92,7 +103,7 @@ void SolidAngles::add(std::int32_t index, Vec3 point, double tolerance, Sum& sum
   }
   for (std::int32_t k = node.link; k < node.link + node.count; ++k) {
     const Corners& t = corners_[at(k)];
-    sum.value += solid_angle_fraction(t.a, t.b, t.c, point);
+    if (!add_far(t, point, tolerance, sum)) sum.value += solid_angle_fraction(t.a, t.b, t.c, point);
   }
 }
 

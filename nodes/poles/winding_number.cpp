@@ -124,7 +124,7 @@ WindingNumber::Value WindingNumber::around(Vec3 point) const {
   });
   value.number = static_cast<double>(crossings);
   if (chain_.boundary.empty()) return value;
-  for (const double tolerance : {1e-1, 1e-2, 1e-4, 0.0}) {
+  for (const double tolerance : {0.2, 1e-2, 1e-4, 0.0}) {
     const SolidAngles::Sum caps = caps_.sum(point, tolerance);
     value.number = static_cast<double>(crossings) - caps.value;
     const auto near = [&](double threshold) {

@@ -18,7 +18,7 @@ namespace ballflow::geometry {
 /// Every closed piece of the boundary is joined to its mean point by triangles. Mesh and these caps together
 /// are a closed chain, whose winding number is an integer that exact predicates count along a ray; what the
 /// caps contribute is a sum of solid angles, subtracted in floating point. Closed meshes have no
-/// error. The sum over caps is hierarchical: numbers of open meshes are off by up to 1/10, but as much more
+/// error. The sum over caps is hierarchical: numbers of open meshes are off by up to 1/5, but as much more
 /// accurate as it takes to tell on which side of 1/4, 1/2 and 3/4 they are.
 ///
 /// Orientation is repaired as in SurfaceChain. Of a closed mesh every component is then turned outwards,

@@ -15,7 +15,8 @@ using geometry::MedialAxis;
 
 constexpr std::size_t sheet_colours = 8;
 
-/// A colour for every sheet: sheets that meet at a seam differ, as far as there are colours.
+/// A colour for every sheet: sheets that meet at a seam differ, as far as there are colours. Of those that
+/// are left, the one with the fewest polygons is taken.
 std::vector<std::uint8_t> colours_of_sheets(const MedialAxis& axis) {
   using Edge = std::array<std::int32_t, 2>;
   std::vector<std::vector<std::int32_t>> at_seam(axis.seams.size());
@@ -36,13 +37,19 @@ std::vector<std::uint8_t> colours_of_sheets(const MedialAxis& axis) {
       }
     }
   }
+  std::vector<std::size_t> size(lower.size(), 0);
+  for (const std::int32_t sheet : axis.polygon_sheets) ++size[static_cast<std::size_t>(sheet)];
   std::vector<std::uint8_t> colours(lower.size(), 0);
+  std::array<std::size_t, sheet_colours> used{};  // polygons of each colour
   for (std::size_t sheet = 0; sheet < lower.size(); ++sheet) {
     std::array<bool, sheet_colours> taken{};
     for (const std::int32_t other : lower[sheet]) taken[colours[static_cast<std::size_t>(other)]] = true;
-    const auto free = std::find(taken.begin(), taken.end(), false);
-    colours[sheet] = static_cast<std::uint8_t>(
-        free != taken.end() ? free - taken.begin() : static_cast<std::ptrdiff_t>(sheet % sheet_colours));
+    std::size_t best = 0;
+    for (std::size_t k = 1; k < sheet_colours; ++k) {
+      if (taken[k] != taken[best] ? taken[best] : used[k] < used[best]) best = k;
+    }
+    colours[sheet] = static_cast<std::uint8_t>(best);
+    used[best] += size[sheet];
   }
   return colours;
 }
