@@ -350,6 +350,7 @@ class Diagnosis {
       for (const Voids::Cell& cell : voids.cells_of(v)) {
         monitor_.step(0.5);
         const PowerVertex corner = power_vertex(inclusion_.part().complex(), cell);
+        if (!is_finite(corner.point)) continue;
         const std::int32_t ball =
             whole_.walk().cell_of(corner.point, whole_.vertex_at(inclusion_.id(cell[0])));
         if (!kept_[at(ball)] && !whole_.walk().outside(corner.point, ball))
