@@ -53,8 +53,13 @@ const PowerWalk& UnionOfBalls::walk() const {
 }
 
 std::int32_t UnionOfBalls::vertex_at(std::int32_t ball) const {
-  const std::int32_t start = walk().contains(ball) ? ball : walk().any();
-  return walk().cell_of(complex_->centers[at(ball)], start);
+  if (vertex_at_.empty()) vertex_at_.assign(balls_.size(), -1);
+  std::int32_t& known = vertex_at_[at(ball)];
+  if (known < 0) {
+    const std::int32_t start = walk().contains(ball) ? ball : walk().any();
+    known = walk().cell_of(complex_->centers[at(ball)], start);
+  }
+  return known;
 }
 
 InclusionHomology UnionOfBalls::inclusion_of(std::span<const std::int32_t> part, Monitor& monitor) const {

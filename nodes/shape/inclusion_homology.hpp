@@ -61,6 +61,7 @@ class UnionOfBalls {
   mutable std::unique_ptr<RegularCells> cells_;
   mutable std::unique_ptr<Voids> voids_;
   mutable std::unique_ptr<PowerWalk> walk_;
+  mutable std::vector<std::int32_t> vertex_at_;  // per ball, -1 where it was not asked for
 };
 
 /// How U*, the union of `ids` (ascending), lies in U+: the maps, with what a repair wants to know.

@@ -9,6 +9,7 @@ const bf_node* medial_axis_entry();
 const bf_node* compare_entry();
 const bf_node* union_measure_entry();
 const bf_node* topology_entry();
+const bf_node* topology_repair_entry();
 }  // namespace ballflow::nodes
 
 BALLFLOW_PLUGIN("shape", "0.1.0",
@@ -18,8 +19,10 @@ BALLFLOW_PLUGIN("shape", "0.1.0",
                     ballflow::nodes::compare_entry(),
                     ballflow::nodes::union_measure_entry(),
                     ballflow::nodes::topology_entry(),
+                    ballflow::nodes::topology_repair_entry(),
                 }),
                 (ballflow::type_entries<ballflow::geometry::Balls, ballflow::geometry::SimplicialComplex,
                                         ballflow::geometry::MedialAxis, ballflow::geometry::PointSet,
                                         ballflow::geometry::TriangleMesh, ballflow::geometry::Comparison,
-                                        ballflow::geometry::MassProperties, ballflow::geometry::TopologyTable>()))
+                                        ballflow::geometry::MassProperties, ballflow::geometry::TopologyTable,
+                                        ballflow::geometry::TopologyCheck, ballflow::geometry::CoverState>()))

@@ -4,7 +4,9 @@
 #include <CGAL/Interval_nt.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -53,14 +55,36 @@ int sign_of(const Expression& expression) {
   return value > 0 ? 1 : value < 0 ? -1 : 0;
 }
 
+/// difference<double>() and a bound of its error: seven roundings, relative to the sum of what is added up.
+/// Where numbers are so small that they underflow the bound is infinite.
+struct Rounded {
+  Rounded(Vec3 x, const Ball& a, const Ball& b) {
+    const double to_a = squared_distance<double>(x, a.center), to_b = squared_distance<double>(x, b.center);
+    value = (to_b - b.weight) - (to_a - a.weight);
+    const double sum = to_a + to_b + a.weight + b.weight;
+    error = sum > 0x1p-900 ? 0x1p-49 * sum : std::numeric_limits<double>::infinity();
+  }
+  double value, error;
+};
+
 /// Sign of power(x, b) - power(x, a): negative when x is nearer to b.
 int compare(Vec3 x, const Ball& a, const Ball& b) {
+  const Rounded d(x, a, b);
+  if (std::abs(d.value) > d.error) return d.value > 0 ? 1 : -1;
   return sign_of([&]<class T>(T) -> T { return difference<T>(x, a, b); });
 }
 
 /// Ball k is left for l, or for m, on the way from p to q: the sign of time(l) - time(m). The difference of
 /// the powers to l and k falls linearly from difference(p, k, l) >= 0 to difference(q, k, l) < 0.
 int compare_times(Vec3 p, Vec3 q, const Ball& k, const Ball& l, const Ball& m) {
+  const Rounded pm(p, k, m), ql(q, k, l), pl(p, k, l), qm(q, k, m);
+  const double value = pm.value * ql.value - pl.value * qm.value;
+  const auto error = [](const Rounded& a, const Rounded& b) {
+    return (std::abs(a.value) + a.error) * b.error + std::abs(b.value) * a.error;
+  };
+  const double bound = 2 * (error(pm, ql) + error(pl, qm)) +
+                       0x1p-50 * (std::abs(pm.value * ql.value) + std::abs(pl.value * qm.value));
+  if (bound > 0x1p-900 && std::abs(value) > bound) return value > 0 ? 1 : -1;
   return sign_of([&]<class T>(T) -> T {
     return difference<T>(p, k, m) * difference<T>(q, k, l) - difference<T>(p, k, l) * difference<T>(q, k, m);
   });

@@ -350,6 +350,7 @@ class Diagnosis {
       for (const Voids::Cell& cell : voids.cells_of(v)) {
         monitor_.step(0.5);
         const PowerVertex corner = power_vertex(inclusion_.part().complex(), cell);
+        if (!is_finite(corner.point)) continue;
         const std::int32_t ball =
             whole_.walk().cell_of(corner.point, whole_.vertex_at(inclusion_.id(cell[0])));
         if (!kept_[at(ball)] && !whole_.walk().outside(corner.point, ball))
@@ -409,9 +410,11 @@ class Repair {
     check_.kept = static_cast<std::int64_t>(kept_.size());
     {
       const Inclusion inclusion = compare({});
-      check_.before = check_.after = inclusion.homology();
+      check_.whole = inclusion.homology().whole;
+      check_.before = check_.after = inclusion.homology().part;
+      check_.before_rank = check_.after_rank = inclusion.homology().rank;
+      if (inclusion.homology().isomorphism()) return {{}, check_};
     }
-    if (check_.before.isomorphism()) return {{}, check_};
     if (options_.method == RepairMethod::literal) returned_ = listing_3_2(whole_.balls(), kept_, monitor_);
     grow();
     if (options_.method == RepairMethod::localised) shrink();
@@ -433,14 +436,15 @@ class Repair {
     for (;;) {
       const Ids ids = merged(kept_, returned_);
       const Inclusion inclusion = compare(returned_);
-      check_.after = inclusion.homology();
-      if (check_.after.isomorphism()) break;
+      check_.after = inclusion.homology().part;
+      check_.after_rank = inclusion.homology().rank;
+      if (inclusion.homology().isomorphism()) break;
       if (ids.size() == whole_.balls().size()) throw std::logic_error("a union of balls differs from itself");
       Diagnosis diagnosis(whole_, ids, inclusion, monitor_);
       Ids more = diagnosis.for_components();
       if (more.empty()) {
         more = merged(diagnosis.for_lost_loops(), diagnosis.for_filled(effort));
-        const std::int64_t now = defects(check_.after);
+        const std::int64_t now = defects(inclusion.homology());
         if (last >= 0 && now >= last) effort *= 2;
         last = now;
       }
@@ -509,6 +513,31 @@ TopologyRepair repair_topology(const Balls& balls, std::span<const std::int32_t>
   }
   const UnionOfBalls whole(balls, monitor);
   return Repair(whole, Ids(kept.begin(), kept.end()), options, monitor).run();
+}
+
+TopologyRepair repair_topology(const Balls& balls, const CoverState& cover,
+                               const TopologyRepairOptions& options, Monitor& monitor) {
+  if (cover.balls != static_cast<std::int64_t>(balls.size())) {
+    throw InputError("the cover is about " + std::to_string(cover.balls) + " balls, but there are " +
+                         std::to_string(balls.size()),
+                     "connect the balls that the covering matrix returned with the cover");
+  }
+  Ids kept(cover.chosen.begin(), cover.chosen.end());
+  std::sort(kept.begin(), kept.end());
+  TopologyRepair repair = repair_topology(balls, kept, options, monitor);
+  if (!repair.check.inclusion_before().isomorphism()) monitor.warn(describe(repair.check));
+  return repair;
+}
+
+CoverState with_returned(const CoverState& cover, std::span<const std::int32_t> returned) {
+  CoverState result = cover;
+  std::vector<std::int32_t> chosen(cover.chosen.begin(), cover.chosen.end());
+  std::vector<std::uint8_t> how(cover.chosen_how.begin(), cover.chosen_how.end());
+  chosen.insert(chosen.end(), returned.begin(), returned.end());
+  how.resize(chosen.size(), static_cast<std::uint8_t>(Choice::returned));
+  result.chosen = std::move(chosen);
+  result.chosen_how = std::move(how);
+  return result;
 }
 
 }  // namespace ballflow::geometry

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "types/balls.hpp"
+#include "types/cover_state.hpp"
 #include "types/monitor.hpp"
 #include "types/topology_check.hpp"
 
@@ -27,6 +28,9 @@ struct TopologyRepair {
   TopologyCheck check;
 };
 
+/// `cover` with the balls that were returned chosen as well (Choice::returned), ascending, after the others.
+CoverState with_returned(const CoverState& cover, std::span<const std::int32_t> returned);
+
 /// Balls of `balls` (U+) to be returned to those with the ids `kept` (U*), so that the inclusion of the union
 /// in U+ induces isomorphisms of homology over Z/2: compared in the end, whatever the method did (see
 /// inclusion_homology.hpp). Nothing is returned when it does so already.
@@ -41,6 +45,11 @@ struct TopologyRepair {
 ///   invariants, and for more than 2000 balls with method literal.
 /// - The same for any number of threads.
 TopologyRepair repair_topology(const Balls& balls, std::span<const std::int32_t> kept,
+                               const TopologyRepairOptions& options, Monitor& monitor);
+
+/// The same for the balls that a cover chose. What was wrong is a warning in words. Throws InputError for a
+/// cover about another number of balls.
+TopologyRepair repair_topology(const Balls& balls, const CoverState& cover,
                                const TopologyRepairOptions& options, Monitor& monitor);
 
 }  // namespace ballflow::geometry

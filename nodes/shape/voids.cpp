@@ -139,15 +139,17 @@ std::int32_t Voids::located(const Cell& orthogonal_to, const Voids& other) const
 }
 
 PowerVertex power_vertex(const SimplicialComplex& complex, const Voids::Cell& cell) {
-  const Point p = equal_power(complex, cell);
-  const Exact::FT power = CGAL::squared_distance(p, exact(complex.centers[at(cell[0])])) -
-                          Exact::FT(complex.weights[at(cell[0])]);
-  // The double next to the exact number, whatever filters have found out so far.
-  const auto rounded = [](const Exact::FT& x) {
-    CGAL::exact(x);
-    return CGAL::to_double(x);
-  };
-  return {{rounded(p.x()), rounded(p.y()), rounded(p.z())}, rounded(power)};
+  const Vec3 origin = complex.centers[at(cell[0])];
+  const double weight = complex.weights[at(cell[0])];
+  Vec3 a[3];
+  double b[3];
+  for (std::size_t k = 0; k < 3; ++k) {
+    a[k] = complex.centers[at(cell[k + 1])] - origin;
+    b[k] = 0.5 * (dot(a[k], a[k]) - complex.weights[at(cell[k + 1])] + weight);
+  }
+  const Vec3 x = (1 / dot(a[0], cross(a[1], a[2]))) *
+                 (b[0] * cross(a[1], a[2]) + b[1] * cross(a[2], a[0]) + b[2] * cross(a[0], a[1]));
+  return {origin + x, dot(x, x) - weight};
 }
 
 }  // namespace ballflow::geometry

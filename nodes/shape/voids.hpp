@@ -40,7 +40,7 @@ class Voids {
   std::vector<std::vector<Cell>> cells_of_;
 };
 
-/// The centre of the sphere orthogonal to four balls, rounded, and the power of the exact one to them.
+/// Where four balls have equal power, and how much, rounded; not finite where the cell is flat.
 struct PowerVertex {
   Vec3 point;
   double power = 0;

@@ -128,7 +128,7 @@ void TypeOf<geometry::CoverState>::declare(TypeDecl<geometry::CoverState>& d) {
   d.array("chosen", &T::chosen).length("k").doc("chosen balls in order of choice");
   d.array("chosen_how", &T::chosen_how)
       .length("k")
-      .doc("0 essential, 1 exact, 2 greedy, 3 trusted, 4 all, 5 searched");
+      .doc("0 essential, 1 exact, 2 greedy, 3 trusted, 4 all, 5 searched, 6 returned to keep the topology");
   d.array("uncovered", &T::uncovered).length("u").doc("samples that no ball covers");
   d.scalar("lower_bound", &T::lower_bound).doc("proven lower bound on any cover, -1 while nothing is known");
   d.scalar("lower_bound_how", &T::lower_bound_how)
@@ -155,6 +155,7 @@ void TypeOf<geometry::CoverState>::declare(TypeDecl<geometry::CoverState>& d) {
   d.summary("greedy", "chosen greedily: each may cost one ball more than the optimum");
   d.summary("trusted", "from a solver that stopped before it proved optimality");
   d.summary("searched", "kept by local search");
+  d.summary("returned", "returned by TopologyRepair, in its output only");
   d.summary("uncovered", "samples that no ball covers");
   d.summarize([](const T& v) {
     constexpr std::array<const char*, 5> grounds{"unknown", "solver", "lemma_3_7", "share", "certified"};
@@ -418,6 +419,47 @@ void TypeOf<geometry::TopologyTable>::declare(TypeDecl<geometry::TopologyTable>&
     s["words"] = words.empty() ? "unknown" : words;
     s["changes"] = changes.size();
     return s;
+  });
+  d.check([](const T& v) { return geometry::broken_invariant(v); });
+}
+
+void TypeOf<geometry::TopologyCheck>::declare(TypeDecl<geometry::TopologyCheck>& d) {
+  using T = geometry::TopologyCheck;
+  using geometry::Betti;
+  d.id("TopologyCheck", 1)
+      .doc("What the inclusion of a union of few balls in that of all of them does to homology over Z/2.");
+  d.scalar("kept", &T::kept).doc("number of balls before the repair");
+  d.scalar("returned", &T::returned).doc("number of balls that the repair returned");
+  d.scalar("whole", &T::whole).doc("components, tunnels, cavities of the union of all balls");
+  d.scalar("before", &T::before).doc("those of the balls before the repair");
+  d.scalar("before_rank", &T::before_rank).doc("how many of them are independent ones of the whole");
+  d.scalar("after", &T::after).doc("those of the balls after the repair");
+  d.scalar("after_rank", &T::after_rank).doc("how many of them are independent ones of the whole");
+  d.scalar("inclusions", &T::inclusions).doc("how many sets of balls were compared with the whole");
+  d.scalar("everything", &T::everything).doc("1 where nothing less than all balls had the right topology");
+  d.summary("isomorphism", "the inclusion induces isomorphisms of homology over Z/2 after the repair");
+  d.summary("isomorphism_before", "the same before the repair");
+  d.summary("words", "what was wrong, and how many balls were returned");
+  d.summary("kept", "number of balls before the repair").summary("returned", "balls that were returned");
+  d.summary("inclusions", "how many sets of balls were compared with the whole");
+  d.summary("everything", "true where nothing less than all balls had the right topology");
+  d.summary("whole", "[components, tunnels, cavities] of the union of all balls");
+  d.summary("before", "those before the repair").summary("after", "those after the repair");
+  d.summary("before_rank", "how many of them are independent ones of the whole");
+  d.summary("after_rank", "how many of them are independent ones of the whole");
+  d.summarize([](const T& v) {
+    return Json{{"isomorphism", v.inclusion_after().isomorphism()},
+                {"isomorphism_before", v.inclusion_before().isomorphism()},
+                {"words", geometry::describe(v)},
+                {"kept", v.kept},
+                {"returned", v.returned},
+                {"inclusions", v.inclusions},
+                {"everything", v.everything != 0},
+                {"whole", v.whole},
+                {"before", v.before},
+                {"before_rank", v.before_rank},
+                {"after", v.after},
+                {"after_rank", v.after_rank}};
   });
   d.check([](const T& v) { return geometry::broken_invariant(v); });
 }

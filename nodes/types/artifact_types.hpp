@@ -16,6 +16,7 @@
 #include "types/point_set.hpp"
 #include "types/pole_set.hpp"
 #include "types/simplicial_complex.hpp"
+#include "types/topology_check.hpp"
 #include "types/topology_table.hpp"
 #include "types/triangle_mesh.hpp"
 
@@ -85,6 +86,11 @@ struct TypeOf<geometry::MassProperties> {
 template <>
 struct TypeOf<geometry::SimplicialComplex> {
   static void declare(TypeDecl<geometry::SimplicialComplex>& d);
+};
+
+template <>
+struct TypeOf<geometry::TopologyCheck> {
+  static void declare(TypeDecl<geometry::TopologyCheck>& d);
 };
 
 template <>

@@ -79,7 +79,7 @@ std::string broken_choices(const CoverState& state) {
       return entry("chosen", i) + " = " + std::to_string(ball) + " is chosen twice or still a row";
     }
     gone[static_cast<std::size_t>(ball)] = true;
-    if (state.chosen_how[i] > static_cast<std::uint8_t>(Choice::searched)) {
+    if (state.chosen_how[i] > static_cast<std::uint8_t>(Choice::returned)) {
       return entry("chosen_how", i) + " = " + std::to_string(state.chosen_how[i]) + " is no Choice";
     }
   }

@@ -18,6 +18,7 @@ enum class Choice : std::uint8_t {
   trusted = 3,    // from a solver that stopped before it proved optimality
   all = 4,        // kept because nothing was pruned
   searched = 5,   // kept by local search: nothing is claimed about it
+  returned = 6,   // returned after the cover was finished, to keep the topology of the union
 };
 
 /// How a lower bound was obtained, the weakest ground first.

@@ -21,16 +21,25 @@ struct InclusionHomology {
 };
 
 struct TopologyCheck {
-  std::int64_t kept = 0;        // balls before the repair
-  std::int64_t returned = 0;    // balls that the repair returned
-  InclusionHomology before;     // of the balls kept
-  InclusionHomology after;      // of those and the balls returned
+  std::int64_t kept = 0;      // balls before the repair
+  std::int64_t returned = 0;  // balls that the repair returned
+
+  // Betti numbers of all balls, of the balls before and after the repair, and the ranks of the maps.
+  Betti whole{0, 0, 0};
+  Betti before{0, 0, 0}, before_rank{0, 0, 0};
+  Betti after{0, 0, 0}, after_rank{0, 0, 0};
+
   std::int64_t inclusions = 0;  // how many sets of balls were compared with the whole
   std::uint8_t everything = 0;  // 1 where nothing less than all balls had the right topology
+
+  InclusionHomology inclusion_before() const { return {before, whole, before_rank}; }
+  InclusionHomology inclusion_after() const { return {after, whole, after_rank}; }
 };
 
 /// "the inclusion is an isomorphism", or what it misses: "2 tunnels are lost, 1 cavity is extra".
 std::string describe(const InclusionHomology& inclusion);
+/// What was wrong and what it took: "2 tunnels are lost: 5 balls returned".
+std::string describe(const TopologyCheck& check);
 
 /// Empty when numbers fit together, else what is wrong.
 std::string broken_invariant(const TopologyCheck& check);

@@ -6,7 +6,7 @@ namespace ballflow::geometry {
 namespace {
 
 /// What leads from the row before to the row of a stage.
-const char* step_to(TopologyStage stage) {
+const char* step_to(TopologyStage stage, bool kept_is_there) {
   switch (stage) {
     case TopologyStage::surface:
       return "the surface";
@@ -17,7 +17,7 @@ const char* step_to(TopologyStage stage) {
     case TopologyStage::kept:
       return "pruning";
     case TopologyStage::complex:
-      return "the alpha-shape";
+      return kept_is_there ? "the alpha-shape" : "pruning";  // that of the kept balls
     case TopologyStage::axis:
       return "the medial axis";
   }
@@ -47,7 +47,8 @@ std::vector<std::string> topology_changes(const TopologyTable& table) {
   for (std::size_t row = 0; row < table.size(); ++row) {
     if (!table.known(row)) continue;
     if (before) {
-      const std::string step = step_to(static_cast<TopologyStage>(table.stages[row]));
+      const std::string step =
+          step_to(static_cast<TopologyStage>(table.stages[row]), table.row(TopologyStage::kept).has_value());
       const auto change = [&](std::size_t k, const char* more, const char* fewer, const char* one,
                               const char* many) {
         const std::int64_t difference = table.betti[row][k] - table.betti[*before][k];

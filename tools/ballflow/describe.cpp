@@ -120,6 +120,7 @@ std::string describe(const OutputEntry& output) {
       {"SimplicialComplex", complex},
       {"MedialAxis", axis},
       {"TopologyTable", [](const Json& s) { return s.at("words").get<std::string>(); }},
+      {"TopologyCheck", [](const Json& s) { return s.at("words").get<std::string>(); }},
   };
   const Json summary = Json::parse(output.summary, nullptr, false);
   if (!summary.is_object()) return output.type;

@@ -64,7 +64,7 @@ TopologyRepair repaired(const Balls& balls, const Ids& kept, const TopologyRepai
   const Ids after = merged(kept, repair.returned);
   EXPECT_EQ(std::adjacent_find(after.begin(), after.end()), after.end()) << "a kept ball was returned";
   EXPECT_TRUE(UnionOfBalls(balls, no_monitor()).inclusion_of(after, no_monitor()).isomorphism());
-  EXPECT_TRUE(repair.check.after.isomorphism());
+  EXPECT_TRUE(repair.check.inclusion_after().isomorphism());
   EXPECT_EQ(repair.check.returned, static_cast<std::int64_t>(repair.returned.size()));
   return repair;
 }
@@ -79,7 +79,7 @@ TEST(topology_repair, returns_nothing_where_nothing_is_wrong) {
 TEST(topology_repair, closes_a_ring_with_the_balls_of_the_gap) {
   const Balls ring = make_balls(circle(24), 0.2);
   const TopologyRepair repair = repaired(ring, all_but(24, {5, 6, 7}));
-  EXPECT_EQ(repair.check.before, (InclusionHomology{{1, 0, 0}, {1, 1, 0}, {1, 0, 0}}));
+  EXPECT_EQ(repair.check.inclusion_before(), (InclusionHomology{{1, 0, 0}, {1, 1, 0}, {1, 0, 0}}));
   EXPECT_EQ(repair.returned, (Ids{5, 6, 7}));
 }
 
@@ -97,7 +97,7 @@ TEST(topology_repair, begins_a_component_that_is_missing) {
   Ids first(24);
   std::iota(first.begin(), first.end(), 0);
   const TopologyRepair repair = repaired(balls, first);
-  EXPECT_EQ(repair.check.before, (InclusionHomology{{1, 1, 0}, {2, 2, 0}, {1, 1, 0}}));
+  EXPECT_EQ(repair.check.inclusion_before(), (InclusionHomology{{1, 1, 0}, {2, 2, 0}, {1, 1, 0}}));
   EXPECT_EQ(repair.returned.size(), 24u) << "every ball meets its two neighbours only";
 }
 
@@ -112,15 +112,15 @@ TEST(topology_repair, fills_a_loop_with_the_ball_that_filled_it) {
   radii.push_back(0.9);
   const Balls balls{centers, radii, {}, {}};
   const TopologyRepair repair = repaired(balls, all_but(24, {}));
-  EXPECT_EQ(repair.check.before, (InclusionHomology{{1, 1, 0}, {1, 0, 0}, {1, 0, 0}}));
+  EXPECT_EQ(repair.check.inclusion_before(), (InclusionHomology{{1, 1, 0}, {1, 0, 0}, {1, 0, 0}}));
   EXPECT_EQ(repair.returned, Ids{30});
 }
 
 TEST(topology_repair, keeps_the_wall_between_the_inside_and_the_outside_of_a_shell) {
   const Balls shell = make_balls(sphere(200), 0.2);
   const TopologyRepair repair = repaired(shell, all_but(200, {50, 58, 63, 71, 84}));
-  EXPECT_EQ(repair.check.before.whole, (Betti{1, 0, 1}));
-  EXPECT_EQ(repair.check.before.rank[2], repair.check.before.part[2]);
+  EXPECT_EQ(repair.check.whole, (Betti{1, 0, 1}));
+  EXPECT_EQ(repair.check.before_rank[2], repair.check.before[2]);
   EXPECT_LE(repair.returned.size(), 5u);
 }
 
@@ -132,7 +132,7 @@ TEST(topology_repair, fills_a_cavity_that_the_whole_fills) {
   centers.push_back({0.1, 0, 0});
   radii.push_back(0.3);
   const TopologyRepair repair = repaired({centers, radii, {}, {}}, all_but(200, {}));
-  EXPECT_EQ(repair.check.before, (InclusionHomology{{1, 0, 1}, {1, 0, 0}, {1, 0, 0}}));
+  EXPECT_EQ(repair.check.inclusion_before(), (InclusionHomology{{1, 0, 1}, {1, 0, 0}, {1, 0, 0}}));
   EXPECT_EQ(repair.returned, Ids{200});
 }
 
@@ -143,9 +143,9 @@ TEST(topology_repair, tells_a_tunnel_lost_and_another_one_gained) {
   centers.push_back({10, 0, 0});
   radii.push_back(0.9);
   const TopologyRepair repair = repaired({centers, radii, {}, {}}, all_but(25, {3, 24}));
-  EXPECT_EQ(repair.check.before.part, repair.check.before.whole);
+  EXPECT_EQ(repair.check.before, repair.check.whole);
   EXPECT_EQ(repair.returned, (Ids{3, 24}));
-  EXPECT_EQ(describe(repair.check.before), "1 tunnel is lost, 1 tunnel is extra");
+  EXPECT_EQ(describe(repair.check.inclusion_before()), "1 tunnel is lost, 1 tunnel is extra");
 }
 
 double unit(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
@@ -187,7 +187,7 @@ TEST(topology_repair, makes_an_isomorphism_that_nerves_confirm) {
     const Ids after = merged(instance.kept, repair.returned);
     const InclusionHomology truth = test::cech_inclusion(instance.balls, after);
     ASSERT_TRUE(truth.isomorphism()) << "round " << round;
-    ASSERT_EQ(repair.check.before, test::cech_inclusion(instance.balls, instance.kept));
+    ASSERT_EQ(repair.check.inclusion_before(), test::cech_inclusion(instance.balls, instance.kept));
     // No returned ball is superfluous by itself.
     for (const std::int32_t ball : repair.returned) {
       Ids less = after;
@@ -208,7 +208,7 @@ TEST(topology_repair, mends_larger_random_unions) {
   for (int round = 0; round < 12; ++round) {
     const Instance instance = random_instance(random, 150, 0.1 + 0.015 * round, round % 4 == 3);
     const TopologyRepair repair = repaired(instance.balls, instance.kept);
-    defective += !repair.check.before.isomorphism();
+    defective += !repair.check.inclusion_before().isomorphism();
     everything += repair.check.everything;
   }
   EXPECT_GT(defective, 6);
@@ -276,10 +276,35 @@ TEST(topology_repair, takes_bad_sets_of_balls) {
   for (int i = 0; i < 9; ++i) line.push_back({1.0 * i, 2.0 * i, 3.0 * i});
   for (int i = 0; i < 25; ++i) plane.push_back({1.0 * (i % 5), 1.0 * (i / 5), 0});
   EXPECT_EQ(repaired(make_balls(line, 2), {0, 4, 8}).returned.size(), 6u);
-  EXPECT_EQ(repaired(make_balls(plane, 0.55), {0, 12, 24}).check.after.whole, (Betti{1, 16, 0}));
+  EXPECT_EQ(repaired(make_balls(plane, 0.55), {0, 12, 24}).check.whole, (Betti{1, 16, 0}));
   const Balls wide{
       {{0, 0, 0}, {1e6, 0, 0}, {1e6 + 1, 0, 0}, {1e6 + 1 + 2e-6, 0, 0}}, {1e6, 1, 1e-6, 1e-6}, {}, {}};
-  EXPECT_TRUE(repaired(wide, {0, 3}).check.after.isomorphism());
+  EXPECT_TRUE(repaired(wide, {0, 3}).check.inclusion_after().isomorphism());
+}
+
+TEST(topology_repair, adds_to_a_cover_what_it_returns) {
+  const Balls ring = make_balls(circle(24), 0.2);
+  CoverState cover;
+  cover.balls = 24;
+  cover.row_offsets = {0};
+  std::vector<std::int32_t> chosen = all_but(24, {5, 6, 7});
+  std::reverse(chosen.begin(), chosen.end());
+  cover.chosen = chosen;
+  cover.chosen_how = std::vector<std::uint8_t>(21, static_cast<std::uint8_t>(Choice::searched));
+  struct Listener final : Monitor {
+    void warn(const std::string& text) override { warnings.push_back(text); }
+    std::vector<std::string> warnings;
+  } listener;
+  const TopologyRepair repair = repair_topology(ring, cover, {}, listener);
+  EXPECT_EQ(listener.warnings,
+            (std::vector<std::string>{"1 tunnel is lost: 3 balls returned to 21, which are all there "
+                                      "are: nothing less had the right topology"}));
+  const CoverState after = with_returned(cover, repair.returned);
+  EXPECT_EQ(broken_invariant(after), "");
+  EXPECT_EQ(after.chosen.size(), 24u);
+  EXPECT_EQ(after.count(Choice::returned), 3);
+  EXPECT_EQ(after.chosen[21], 5);
+  EXPECT_THROW(repair_topology(make_balls(circle(23), 0.2), cover, {}, no_monitor()), InputError);
 }
 
 TEST(topology_repair, refuses_ids_that_are_none) {
@@ -288,7 +313,7 @@ TEST(topology_repair, refuses_ids_that_are_none) {
     EXPECT_THROW(repair_topology(ring, kept, {}, no_monitor()), InputError);
   }
   EXPECT_THROW(
-      repair_topology(make_balls(circle(2001), 0.1), {}, {.method = RepairMethod::literal}, no_monitor()),
+      repair_topology(make_balls(circle(2001), 0.1), Ids{}, {.method = RepairMethod::literal}, no_monitor()),
       InputError);
 }
 
@@ -304,13 +329,14 @@ TEST(topology_repair, stops_when_cancelled) {
 
 TEST(topology_check, reports_what_does_not_fit) {
   TopologyCheck check;
-  check.before = check.after = {{1, 2, 0}, {1, 3, 0}, {1, 2, 0}};
+  check.whole = {1, 3, 0};
+  check.before = check.after = check.before_rank = check.after_rank = {1, 2, 0};
   EXPECT_EQ(broken_invariant(check), "");
-  check.after.rank[1] = 3;
+  check.after_rank[1] = 3;
   EXPECT_NE(broken_invariant(check), "");
-  check.after = {{1, 2, 0}, {1, 4, 0}, {1, 2, 0}};
+  check.after_rank[1] = -1;
   EXPECT_NE(broken_invariant(check), "");
-  check.after = check.before;
+  check.after_rank = check.before_rank;
   check.returned = -1;
   EXPECT_NE(broken_invariant(check), "");
 }
