@@ -14,4 +14,5 @@ BALLFLOW_PLUGIN("balls", "0.1.0",
                     ballflow::nodes::select_balls_entry(),
                 }),
                 (ballflow::type_entries<ballflow::geometry::Balls, ballflow::geometry::PointSet,
-                                        ballflow::geometry::CoverState>()))
+                                        ballflow::geometry::PoleSet, ballflow::geometry::Growth,
+                                        ballflow::geometry::Bisection, ballflow::geometry::CoverState>()))

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "poles/angle_labels.hpp"
 #include "poles/winding_number.hpp"
 
 namespace ballflow::geometry {
@@ -19,13 +20,14 @@ namespace {
 
 constexpr auto inner = static_cast<std::uint8_t>(PoleLabel::inner);
 constexpr auto outer = static_cast<std::uint8_t>(PoleLabel::outer);
+constexpr auto unlabelled = static_cast<std::uint8_t>(PoleLabel::unlabelled);
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 void check_mesh(const TriangleMesh& mesh) {
   if (mesh.triangles.empty()) {
     throw InputError("the mesh has no triangles, so it has no inside",
-                     "label with a mesh of the surface: reconstruct one from the points first");
+                     "label with a mesh of the surface, or by method angle, which needs none");
   }
   if (const std::string broken = broken_invariant(mesh); !broken.empty()) {
     throw InputError("the mesh is damaged: " + broken, "repair the mesh, or read it again");
@@ -52,13 +54,13 @@ std::string why_not_closed(const SurfaceChain& chain, const TriangleMesh& mesh) 
          " edges belong to more than two triangles, which face one way more often than the other";
 }
 
-Balls select_label(const PoleSet& poles, std::uint8_t label) {
+Balls select_label(const PoleSet& poles, std::uint8_t label, OuterBalls which = OuterBalls::all) {
   std::vector<Vec3> centers;
   std::vector<double> radii;
   std::vector<std::int64_t> offsets{0};
   std::vector<std::int32_t> samples;
   for (std::size_t i = 0; i < poles.size(); ++i) {
-    if (poles.labels[i] != label) continue;
+    if (poles.labels[i] != label || (which == OuterBalls::bounded && poles.unbounded[i] == 1)) continue;
     centers.push_back(poles.centers[i]);
     radii.push_back(poles.radii[i]);
     const auto first = poles.defining_samples.begin() + poles.defining_offsets[i];
@@ -124,6 +126,38 @@ PoleSet select_kept(const PoleSet& poles, const std::vector<std::uint8_t>& kept)
           std::move(samples), std::move(unbounded), std::move(sample_poles)};
 }
 
+LabelledPoles label_by_angle(const PoleSet& poles, const LabelPolesOptions& options, Monitor& monitor) {
+  AngleLabels found = angle_labels(poles, monitor);
+  LabelledPoles result;
+  result.method = LabelMethod::angle;
+  result.poles = poles;
+  result.poles.sample_poles = with_third_poles(poles, found.labels);
+  const std::vector<std::uint8_t> kept = is_pole(result.poles);
+  std::int64_t all = 0, inside = 0;
+  for (std::size_t i = 0; i < poles.size(); ++i) {
+    if (kept[i] == 0) continue;
+    ++all;
+    if (found.labels[i] == inner) ++inside;
+    if (found.labels[i] == unlabelled) ++result.unlabelled;
+    if (found.uncertain[i] == 1) ++result.uncertain;
+  }
+  if (inside == 0) {
+    throw InputError(
+        "none of the " + std::to_string(all) + " poles is inside: the outside reaches all of them",
+        "sample a closed surface more densely, or label with a mesh of it");
+  }
+  if (result.unlabelled > 0) {
+    monitor.warn(std::to_string(result.unlabelled) + " of " + std::to_string(all) +
+                 " poles are neither inner nor outer: nothing connects them with the outside");
+  }
+  result.poles.labels = std::move(found.labels);
+  result.poles = select_kept(result.poles, kept);
+  result.inner = select_label(result.poles, inner);
+  result.outer = select_label(result.poles, outer, options.outer);
+  monitor.step(1);
+  return result;
+}
+
 struct Counts {
   std::int64_t all = 0, inner = 0, uncertain = 0, negative = 0;
 };
@@ -132,6 +166,10 @@ struct Counts {
 
 LabelledPoles label_poles(const PoleSet& poles, const TriangleMesh& mesh, const LabelPolesOptions& options,
                           Monitor& monitor) {
+  if (options.method == LabelMethod::angle ||
+      (options.method == LabelMethod::automatic && mesh.triangles.empty())) {
+    return label_by_angle(poles, options, monitor);
+  }
   check_mesh(mesh);
   monitor.step(0);
   const WindingNumber winding(mesh, monitor);
@@ -214,7 +252,7 @@ LabelledPoles label_poles(const PoleSet& poles, const TriangleMesh& mesh, const 
   result.poles = select_kept(result.poles, kept);
   result.uncertain = counts.uncertain;
   result.inner = select_label(result.poles, inner);
-  result.outer = select_label(result.poles, outer);
+  result.outer = select_label(result.poles, outer, options.outer);
   monitor.step(1);
   return result;
 }

@@ -10,21 +10,29 @@
 
 namespace ballflow::geometry {
 
-enum class LabelMethod : std::uint8_t { automatic, mesh, winding };
+enum class LabelMethod : std::uint8_t { automatic, mesh, winding, angle };
+
+/// Which outer polar balls are wanted.
+enum class OuterBalls : std::uint8_t {
+  all,      // those of unbounded poles too, which end at far-away points
+  bounded,  // those that only samples bound: what the medial axis of the outside is made of
+};
 
 struct LabelPolesOptions {
   LabelMethod method = LabelMethod::automatic;
+  OuterBalls outer = OuterBalls::all;
 };
 
 struct LabelledPoles {
-  PoleSet poles;  // with every label inner or outer, with third poles, without the other candidates
+  PoleSet poles;  // labelled, with third poles, without the other candidates
   Balls inner;    // polar balls of the inner poles, in their order: the discrete medial axis transform
-  Balls outer;    // those of the outer poles; balls of unbounded poles end at the far-away points
+  Balls outer;    // those of the outer poles, all of them or the bounded ones
 
-  LabelMethod method = LabelMethod::mesh;  // what was used: mesh or winding
+  LabelMethod method = LabelMethod::mesh;  // what was used: mesh, winding or angle
   // Poles whose label says little (of the poles that are in the result): winding number in [1/4, 3/4], or
-  // centre exactly on the surface.
+  // centre exactly on the surface; for `angle` strong evidence against the label (see angle_labels).
   std::int64_t uncertain = 0;
+  std::int64_t unlabelled = 0;  // `angle` only: poles of which nothing is known, neither inner nor outer
   std::int64_t turned_triangles = 0;  // turned over to make the mesh consistently oriented
 };
 
@@ -38,8 +46,9 @@ struct LabelledPoles {
 ///   component of negative volume inside another one bounds a cavity) and with self-intersections (inside
 ///   means wound around at least once)
 /// - `winding`: any mesh; open ones by the generalized winding number [Jacobson et al. 2013]
-/// - `automatic`: `mesh` when the mesh is closed, else `winding` and a warning that says why and how many
-///   poles are uncertain
+/// - `angle`: no mesh at all, see angle_labels; for clouds of points
+/// - `automatic`: `mesh` when the mesh is closed, `angle` when it has no triangles, else `winding` and a
+///   warning that says why and how many poles are uncertain
 ///
 /// Where the first two poles of a sample have the same label, as happens at sharp edges, the farthest vertex
 /// of its cell with the other label, among the poles and candidates of the set, becomes its third pole. Equal
@@ -48,9 +57,9 @@ struct LabelledPoles {
 ///
 /// Unbounded poles are outer. A pole exactly on the surface is outer.
 ///
-/// Refuses (InputError) a mesh without triangles, indices out of range, a mesh that is not closed when `mesh`
-/// is asked for, and a mesh that contains no pole at all: an open sheet has no inside.
-/// Preconditions: `poles` and the mesh are in the same coordinates; broken_invariant(poles) is empty.
+/// Refuses (InputError) a mesh without triangles when `mesh` or `winding` is asked for, indices out of range,
+/// a mesh that is not closed when `mesh` is asked for, and an inside without any pole: an open sheet has
+/// none. Preconditions: `poles` and the mesh are in the same coordinates; broken_invariant(poles) is empty.
 LabelledPoles label_poles(const PoleSet& poles, const TriangleMesh& mesh, const LabelPolesOptions& options,
                           Monitor& monitor = no_monitor());
 

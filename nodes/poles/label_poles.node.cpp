@@ -4,12 +4,14 @@
 #include <utility>
 
 #include "types/artifact_types.hpp"
+#include "types/cgal_version.hpp"
 
 namespace ballflow::nodes {
 namespace {
 
 using geometry::LabelMethod;
 using geometry::LabelPolesOptions;
+using geometry::OuterBalls;
 
 struct LabelPoles {
   In<geometry::PoleSet> poles;
@@ -25,36 +27,56 @@ struct LabelPoles {
         "A pole is inner when the winding number of the mesh around it exceeds 1/2. For closed meshes it is "
         "an integer, counted with exact predicates: right at sharp edges, where the sample is too coarse, "
         "with cavities and with self-intersections. For open meshes it is the generalized winding number. "
-        "Where both poles of a sample are on one side, as at sharp edges, the farthest candidate on the "
-        "other side becomes its third pole. Triangles that face inconsistent ways are turned over; the mesh "
-        "may be inside out. The summary of `poles` adds method, uncertain (poles with a winding number from "
-        "1/4 to 3/4, or exactly on the surface) and turned_triangles. Refuses a mesh without triangles and a "
-        "mesh that contains no pole, such as an open sheet.");
+        "Triangles that face inconsistent ways are turned over; the mesh may be inside out. Without a mesh, "
+        "for clouds of points, labels spread from the unbounded poles, which are outer: deeply intersecting "
+        "neighbours in the power diagram of the polar balls share a label, opposite poles of a sample do "
+        "not, the most certain first (method angle). That is right for well sampled smooth surfaces; it "
+        "fails at sharp edges, at noise as large as the spacing, between sheets closer than the spacing, and "
+        "leaks through holes. Where both poles of a sample are on one side, as at sharp edges, the farthest "
+        "candidate on the other side becomes its third pole. The summary of `poles` adds method, uncertain "
+        "(winding number from 1/4 to 3/4, or exactly on the surface; for angle, evidence against the label "
+        "at least half as strong as that for it), unlabelled (angle: nothing is known) and "
+        "turned_triangles. Refuses mesh and winding without triangles, and a surface with no pole inside, "
+        "such as an open sheet.");
     d.avoid_when("the mesh is not the surface that was sampled, or has large holes: see `uncertain`.");
     d.cites("kornberger2010", "3.4").cites("aichholzer2007", "labels from a mesh");
+    d.cites("amentakolluri2000", "labels without a mesh");
     d.cites("jacobson2013", "generalized winding number").cites("barill2018", "hierarchical evaluation");
-    d.memory(1 << 20, 2.5);
+    d.library("CGAL", geometry::cgal_version());
+    d.memory(1 << 20, 10);
     d.input("poles", &LabelPoles::poles).doc("poles of a sample, labelled or not");
     d.input("mesh", &LabelPoles::mesh)
-        .doc("triangles of the surface that was sampled, in the same coordinates");
+        .optional()
+        .doc("triangles of the surface that was sampled, in the same coordinates; not for method angle");
     d.output("poles", &LabelPoles::labelled)
-        .doc("the poles, every one labelled inner or outer, with third poles, without the other candidates");
+        .doc("the poles, labelled, with third poles, without the other candidates");
     d.output("inner", &LabelPoles::inner)
         .doc("polar balls of the inner poles with the samples they pass through");
     d.output("outer", &LabelPoles::outer)
-        .doc("polar balls of the outer poles, those of unbounded poles included");
-    d.choice("method", &LabelPoles::options, &LabelPolesOptions::method,
-             {{LabelMethod::automatic, "auto", "mesh when the mesh is closed, else winding, with a warning"},
-              {LabelMethod::mesh, "mesh", "exact, for closed meshes; refuses others and says why"},
-              {LabelMethod::winding, "winding",
-               "generalized winding number; the same as mesh for closed meshes"}})
+        .doc("polar balls of the outer poles, those of unbounded poles included or not");
+    d.choice(
+         "method", &LabelPoles::options, &LabelPolesOptions::method,
+         {{LabelMethod::automatic, "auto",
+           "mesh when the mesh is closed, angle without triangles, else winding, with a warning"},
+          {LabelMethod::mesh, "mesh", "exact, for closed meshes; refuses others and says why"},
+          {LabelMethod::winding, "winding", "generalized winding number; the same as mesh for closed meshes"},
+          {LabelMethod::angle, "angle", "from the polar balls alone, for clouds without a mesh"}})
         .doc("how inside and outside are told apart");
+    d.choice("outer", &LabelPoles::options, &LabelPolesOptions::outer,
+             {{OuterBalls::all, "all", "balls of unbounded poles too; they end at far-away points"},
+              {OuterBalls::bounded, "bounded",
+               "only balls that samples bound, for the medial axis of the outside"}})
+        .doc("which balls the output outer has");
   }
   void run(RunContext& context) {
     ContextMonitor monitor(context);
-    geometry::LabelledPoles result = geometry::label_poles(*poles, *mesh, options, monitor);
-    labelled.summary("method", result.method == LabelMethod::mesh ? "mesh" : "winding");
+    geometry::LabelledPoles result =
+        geometry::label_poles(*poles, mesh ? *mesh : geometry::TriangleMesh{}, options, monitor);
+    labelled.summary("method", result.method == LabelMethod::mesh      ? "mesh"
+                               : result.method == LabelMethod::winding ? "winding"
+                                                                       : "angle");
     labelled.summary("uncertain", result.uncertain);
+    if (result.method == LabelMethod::angle) labelled.summary("unlabelled", result.unlabelled);
     labelled.summary("turned_triangles", result.turned_triangles);
     labelled = std::move(result.poles);
     inner = std::move(result.inner);

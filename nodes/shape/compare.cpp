@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "shape/nearest_tree.hpp"
+#include "types/nearest_tree.hpp"
 
 namespace ballflow::geometry {
 namespace {

@@ -115,6 +115,89 @@ void TypeOf<geometry::Balls>::declare(TypeDecl<geometry::Balls>& d) {
   d.check([](const T& v) { return geometry::broken_invariant(v); });
 }
 
+void TypeOf<geometry::Growth>::declare(TypeDecl<geometry::Growth>& d) {
+  using T = geometry::Growth;
+  using geometry::GrowthStop;
+  d.id("Growth", 1).doc("How far balls have grown, and what stopped each of them.");
+  d.array("centers", &T::centers).length("n").doc("centres of the balls, model units");
+  d.array("radii", &T::radii).length("n").doc("radii before, model units");
+  d.array("grown_radii", &T::grown_radii).length("n").doc("radii after, model units");
+  d.array("limits", &T::limits).length("n").doc("largest radius allowed whatever is asked for, or infinity");
+  d.array("stops", &T::stops)
+      .length("n")
+      .doc("0 grown as far as asked for, 1 pole bound, 2 critical Gabriel point, 3 neighbour");
+  d.scalar("betti_before", &T::betti_before).doc("components, tunnels, cavities of the union; -1 if unknown");
+  d.scalar("betti_after", &T::betti_after).doc("those of the grown union");
+  d.summary("balls", "number of balls").summary("stopped", "balls smaller than asked for");
+  d.summary("stopped_by_poles", "they might reach the outer medial axis (Lemma 3.4)");
+  d.summary("stopped_by_gabriel", "they would reach a critical Gabriel point");
+  d.summary("stopped_by_neighbour", "a ball near them has stopped, and the topology would change");
+  d.summary("mean_growth", "of the radii, model units; null without balls");
+  d.summary("max_growth", "of the radii, model units; null without balls");
+  d.summary("betti_before", "[components, tunnels, cavities] of the union, null where nobody has looked");
+  d.summary("betti_after", "those of the grown union");
+  d.summarize([](const T& v) {
+    const auto stopped = [&v](GrowthStop by) {
+      return std::count(v.stops.begin(), v.stops.end(), static_cast<std::uint8_t>(by));
+    };
+    Json mean = nullptr, most = nullptr;
+    if (!v.radii.empty()) {
+      double sum = 0, largest = 0;
+      for (std::size_t i = 0; i < v.radii.size(); ++i) {
+        const double growth = v.grown_radii[i] - v.radii[i];
+        sum += growth;
+        largest = std::max(largest, growth);
+      }
+      mean = sum / static_cast<double>(v.radii.size());
+      most = largest;
+    }
+    const auto betti = [](const std::array<std::int64_t, 3>& b) {
+      return b[0] < 0 ? Json(nullptr) : Json(b);
+    };
+    return Json{{"balls", v.radii.size()},
+                {"stopped", static_cast<std::int64_t>(v.stops.size()) - stopped(GrowthStop::wish)},
+                {"stopped_by_poles", stopped(GrowthStop::poles)},
+                {"stopped_by_gabriel", stopped(GrowthStop::gabriel)},
+                {"stopped_by_neighbour", stopped(GrowthStop::neighbour)},
+                {"mean_growth", mean},
+                {"max_growth", most},
+                {"betti_before", betti(v.betti_before)},
+                {"betti_after", betti(v.betti_after)}};
+  });
+  d.check([](const T& v) { return geometry::broken_invariant(v); });
+}
+
+void TypeOf<geometry::LocalFeatureSize>::declare(TypeDecl<geometry::LocalFeatureSize>& d) {
+  using T = geometry::LocalFeatureSize;
+  d.id("LocalFeatureSize", 1)
+      .doc("D^, the distance of every sample to the nearest pole: an estimate of the local feature size.");
+  d.array("points", &T::points).length("n").doc("the sample, model units");
+  d.array("pole_distances", &T::pole_distances)
+      .length("n")
+      .doc(
+          "D^, model units. For r-samples, r <= 0.08: distance to the discrete medial axis in "
+          "[0.817 D^, D^], local feature size at most 1.2802 D^");
+  d.summary("count", "number of samples");
+  d.summary("min_pole_distance", "smallest D^; null without samples");
+  d.summary("max_pole_distance", "largest D^");
+  d.summary("discrete_at_least", "times D^: lower bound of the distance to the discrete medial axis");
+  d.summary("at_most", "times D^: upper bound of the local feature size");
+  d.summarize([](const T& v) {
+    Json smallest = nullptr, largest = nullptr;
+    if (!v.pole_distances.empty()) {
+      const auto [low, high] = std::minmax_element(v.pole_distances.begin(), v.pole_distances.end());
+      smallest = *low;
+      largest = *high;
+    }
+    return Json{{"count", v.points.size()},
+                {"min_pole_distance", smallest},
+                {"max_pole_distance", largest},
+                {"discrete_at_least", T::discrete_at_least},
+                {"at_most", T::at_most}};
+  });
+  d.check([](const T& v) { return geometry::broken_invariant(v); });
+}
+
 void TypeOf<geometry::CoverState>::declare(TypeDecl<geometry::CoverState>& d) {
   using T = geometry::CoverState;
   d.id("CoverState", 2)
@@ -177,6 +260,31 @@ void TypeOf<geometry::CoverState>::declare(TypeDecl<geometry::CoverState>& d) {
                 {"trusted", v.count(geometry::Choice::trusted)},
                 {"searched", v.count(geometry::Choice::searched)},
                 {"uncovered", v.uncovered.size()}};
+  });
+  d.check([](const T& v) { return geometry::broken_invariant(v); });
+}
+
+void TypeOf<geometry::Bisection>::declare(TypeDecl<geometry::Bisection>& d) {
+  using T = geometry::Bisection;
+  d.id("Bisection", 1).doc("A search for the smallest growth with which few enough balls cover a sample.");
+  d.scalar("value", &T::value).doc("to be tried next; once done, the answer");
+  d.scalar("too_small", &T::too_small).doc("largest value known to need too many balls; -1 for none");
+  d.scalar("large_enough", &T::large_enough).doc("smallest value known to need few enough; -1 for none");
+  d.scalar("balls", &T::balls).doc("what large_enough needs; -1 while unknown");
+  d.scalar("balls_before", &T::balls_before).doc("what too_small needs; -1 while unknown");
+  d.scalar("tried", &T::tried).doc("values that were tried");
+  d.scalar("done", &T::done).doc("1 at the end");
+  d.summary("value", "to be tried next; once done, the answer").summary("done", "1 at the end");
+  d.summary("balls", "what the smallest sufficient value needs; null while there is none");
+  d.summary("balls_before", "what the largest insufficient value needs; null while there is none");
+  d.summary("tried", "values that were tried");
+  d.summarize([](const T& v) {
+    const auto known = [](std::int64_t n) { return n < 0 ? Json(nullptr) : Json(n); };
+    return Json{{"value", v.value},
+                {"done", v.done},
+                {"balls", known(v.balls)},
+                {"balls_before", known(v.balls_before)},
+                {"tried", v.tried}};
   });
   d.check([](const T& v) { return geometry::broken_invariant(v); });
 }

@@ -7,9 +7,12 @@
 #include <chrono>
 
 #include "types/balls.hpp"
+#include "types/bisection.hpp"
 #include "types/comparison.hpp"
 #include "types/cover_check.hpp"
 #include "types/cover_state.hpp"
+#include "types/growth.hpp"
+#include "types/local_feature_size.hpp"
 #include "types/mass_properties.hpp"
 #include "types/medial_axis.hpp"
 #include "types/monitor.hpp"
@@ -64,8 +67,23 @@ struct TypeOf<geometry::Balls> {
 };
 
 template <>
+struct TypeOf<geometry::Growth> {
+  static void declare(TypeDecl<geometry::Growth>& d);
+};
+
+template <>
+struct TypeOf<geometry::LocalFeatureSize> {
+  static void declare(TypeDecl<geometry::LocalFeatureSize>& d);
+};
+
+template <>
 struct TypeOf<geometry::CoverState> {
   static void declare(TypeDecl<geometry::CoverState>& d);
+};
+
+template <>
+struct TypeOf<geometry::Bisection> {
+  static void declare(TypeDecl<geometry::Bisection>& d);
 };
 
 template <>

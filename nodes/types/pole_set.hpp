@@ -18,9 +18,11 @@ struct PoleSet {
   // the cell of a sample whose first two poles may lie on one side of the surface. LabelPoles chooses third
   // poles among the candidates, and drops the others. Vertices that coincide exactly (five and more
   // cospherical samples) are one entry. Sorted by their smallest defining samples.
-  Array<Vec3> centers;         // p x 3, model units; finite
-  Array<double> radii;         // p, distance to the defining samples
-  Array<std::uint8_t> labels;  // p, PoleLabel; all unlabelled before LabelPoles, none of them after it
+  Array<Vec3> centers;  // p x 3, model units; finite
+  Array<double> radii;  // p, distance to the defining samples
+  // p, PoleLabel; all unlabelled before LabelPoles, after it only those of which its method angle knows
+  // nothing
+  Array<std::uint8_t> labels;
 
   // The samples on the sphere of each entry (all sites of the Voronoi vertex, at least 4, ascending; the
   // far-away points that bound the diagram are not samples and are left out, so there may be fewer).

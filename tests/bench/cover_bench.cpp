@@ -37,7 +37,7 @@ const Instance& instance(const std::string& file) {
 }
 
 Balls enlarged(const Instance& instance, double epsilon) {
-  return enlarge(instance.balls, bounding_box(instance.points.points), {.epsilon = epsilon});
+  return enlarge(instance.balls, instance.points, {}, {.epsilon = epsilon}).balls;
 }
 
 void matrix(benchmark::State& state, const std::string& file, double epsilon) {

@@ -41,6 +41,21 @@ const std::vector<Case>& cases() {
       {"torus_hybrid", "medial_axis", {{"input", "shape:torus?n=6000"}, {"strategy", "hybrid"}}, 0},
       {"balls", "balls", {}, kNoTopology},  // a ring of balls and one ball apart: Betti 2 1 0
       {"box_dmt", "dmt", {{"input", "shape:box?n=2000"}}, kNoTopology},
+      {"knot_points", "dmt_points", {{"input", "shape:knot?n=8000"}}, kNoTopology},
+      {"double_torus_growth",
+       "growth",
+       {{"input", "shape:doubleTorus?n=4000"}, {"epsilon", "10"}},
+       kNoTopology},
+      {"double_torus_pole_bound",
+       "growth",
+       {{"input", "shape:doubleTorus?n=4000"}, {"epsilon", "10"}, {"mode", "pole_bound"}},
+       kNoTopology},
+      {"torus_feature_size", "local_feature_size", {{"input", "shape:torus?n=6000"}}, kNoTopology},
+      {"torus_outside", "outer_medial_axis", {{"input", "shape:torus?n=6000"}}, kNoTopology},
+      {"double_torus_150_balls",
+       "k_balls",
+       {{"input", "shape:doubleTorus?n=4000"}, {"k", "150"}},
+       kNoTopology},
   };
   return all;
 }

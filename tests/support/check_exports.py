@@ -97,6 +97,13 @@ class Artifact:
         self.points, self.radii = a["centers"], a["radii"]
         self.point_codes = ("label", a["labels"])
 
+    def read_LocalFeatureSize(self, a):
+        self.points, self.radii = a["points"], a["pole_distances"]
+
+    def read_Growth(self, a):
+        self.points, self.radii = a["centers"], a["grown_radii"]
+        self.point_codes = ("stop", a["stops"])
+
     def read_SimplicialComplex(self, a):
         number = {ball: i for i, ball in enumerate(a["vertices"])}
         self.points = [a["centers"][ball] for ball in a["vertices"]]
@@ -117,7 +124,7 @@ class Artifact:
     def read_CoverState(self, a):
         pass
 
-    read_CoverCheck = read_Comparison = read_CoverState
+    read_CoverCheck = read_Comparison = read_Bisection = read_CoverState
 
     def balls(self):
         return [(*p, r) for p, r in zip(self.points, self.radii)]
@@ -452,7 +459,7 @@ def check_glb(data, artifact):
     dots = artifact.dots
     if artifact.type == "PoleSet":  # the outer ones, often far away, are hidden
         dots = [i for i in dots if artifact.point_codes[1][i] != 2]
-    if artifact.type == "Balls" and len(artifact.points) <= MOST_BALL_NODES:
+    if artifact.type in ("Balls", "Growth") and len(artifact.points) <= MOST_BALL_NODES:
         same(balls, artifact.balls(), "balls")
         dots = []
     triangles = fans(artifact.faces)

@@ -74,6 +74,13 @@ std::string comparison(const Json& s) {
   return text;
 }
 
+std::string growth(const Json& s) {
+  std::string text = number(s, "stopped") + " of " + counted(s, "balls", "ball") + " stopped";
+  if (s.at("betti_after").is_array() && s.at("betti_after") == s.at("betti_before"))
+    text += ", Betti numbers kept";
+  return text;
+}
+
 std::string axis(const Json& s) {
   return counted(s, "polygons", "polygon") + " in " + counted(s, "sheets", "sheet") + ", " +
          counted(s, "edges", "free edge") + ", Euler characteristic " + number(s, "euler_characteristic");
@@ -117,6 +124,16 @@ std::string describe(const OutputEntry& output) {
          return number(s, "covered") + " of " + number(s, "samples") + " samples covered";
        }},
       {"Comparison", comparison},
+      {"Growth", growth},
+      {"Bisection",
+       [](const Json& s) {
+         return "growth " + s.at("value").dump() + " after " + counted(s, "tried", "trial");
+       }},
+      {"LocalFeatureSize",
+       [](const Json& s) {
+         return counted(s, "count", "sample") + ", nearest pole from " + s.at("min_pole_distance").dump() +
+                " to " + s.at("max_pole_distance").dump() + " away";
+       }},
       {"SimplicialComplex", complex},
       {"MedialAxis", axis},
       {"TopologyTable", [](const Json& s) { return s.at("words").get<std::string>(); }},

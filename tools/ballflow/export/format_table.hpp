@@ -33,6 +33,8 @@ TypeFormats point_set_formats();
 TypeFormats triangle_mesh_formats();
 TypeFormats balls_formats();
 TypeFormats pole_set_formats();
+TypeFormats local_feature_size_formats();
+TypeFormats growth_formats();
 TypeFormats cover_state_formats();
 TypeFormats simplicial_complex_formats();
 TypeFormats medial_axis_formats();

@@ -18,6 +18,8 @@ TypeLayers point_set_layers();
 TypeLayers triangle_mesh_layers();
 TypeLayers balls_layers();
 TypeLayers pole_set_layers();
+TypeLayers local_feature_size_layers();
+TypeLayers growth_layers();
 TypeLayers simplicial_complex_layers();
 TypeLayers medial_axis_layers();
 

@@ -11,8 +11,9 @@ namespace {
 
 const std::vector<TypeLayers>& table() {
   static const std::vector<TypeLayers> types = {
-      point_set_layers(), triangle_mesh_layers(),      balls_layers(),
-      pole_set_layers(),  simplicial_complex_layers(), medial_axis_layers()};
+      point_set_layers(),          triangle_mesh_layers(),      balls_layers(),
+      pole_set_layers(),           local_feature_size_layers(), growth_layers(),
+      simplicial_complex_layers(), medial_axis_layers()};
   return types;
 }
 

@@ -10,12 +10,11 @@
 namespace ballflow::geometry {
 namespace {
 
-const Box box = [] {
-  Box b;
-  b.add({-1, 0, 2});
-  b.add({1, 8, 3});  // longest edge 8
-  return b;
-}();
+const PointSet sample{{{-1, 0, 2}, {1, 8, 3}}, {}};  // longest edge of the box: 8
+
+Balls enlarge(const Balls& balls, const PointSet& points, const EnlargeOptions& options) {
+  return geometry::enlarge(balls, points, {}, options).balls;
+}
 
 Balls sample_balls() {
   return {{{0, 0, 0}, {1, 2, 3}, {4, 5, 6}}, {0, 1, 2.5}, {0, 2, 2, 5}, {3, 9, 0, 1, 7}};
@@ -28,9 +27,9 @@ void expect_same_but_radii(const Balls& grown, const Balls& balls) {
   EXPECT_EQ(broken_invariant(grown), "");
 }
 
-std::string message(const Balls& balls, const Box& sample_box, const EnlargeOptions& options) {
+std::string message(const Balls& balls, const PointSet& points, const EnlargeOptions& options) {
   try {
-    enlarge(balls, sample_box, options);
+    enlarge(balls, points, options);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -39,34 +38,34 @@ std::string message(const Balls& balls, const Box& sample_box, const EnlargeOpti
 
 TEST(enlarge, additive_epsilon_is_percent_of_the_longest_edge_of_the_box) {
   const Balls balls = sample_balls();
-  const Balls grown = enlarge(balls, box, {.mode = EnlargeMode::additive, .epsilon = 25});
+  const Balls grown = enlarge(balls, sample, {.mode = EnlargeMode::additive, .epsilon = 25});
   EXPECT_EQ(grown.radii, (Array<double>{2, 3, 4.5}));
   expect_same_but_radii(grown, balls);
 }
 
 TEST(enlarge, default_is_three_thousandths_of_the_longest_edge) {
-  const Balls grown = enlarge(sample_balls(), box, {});
+  const Balls grown = enlarge(sample_balls(), sample, {});
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(grown.radii[i] - sample_balls().radii[i], 0.024, 1e-15);
 }
 
 TEST(enlarge, absolute_epsilon_is_in_model_units_and_needs_no_sample) {
-  const Balls grown = enlarge(sample_balls(), Box{}, {.mode = EnlargeMode::absolute, .epsilon = 0.5});
+  const Balls grown = enlarge(sample_balls(), PointSet{}, {.mode = EnlargeMode::absolute, .epsilon = 0.5});
   EXPECT_EQ(grown.radii, (Array<double>{0.5, 1.5, 3}));
   expect_same_but_radii(grown, sample_balls());
 }
 
 TEST(enlarge, multiplicative_keeps_balls_of_radius_zero) {
-  const Balls grown =
-      enlarge(sample_balls(), Box{}, {.mode = EnlargeMode::multiplicative, .epsilon = -7, .factor = 1.5});
+  const Balls grown = enlarge(sample_balls(), PointSet{},
+                              {.mode = EnlargeMode::multiplicative, .epsilon = -7, .factor = 1.5});
   EXPECT_EQ(grown.radii, (Array<double>{0, 1.5, 3.75}));
   expect_same_but_radii(grown, sample_balls());
 }
 
 TEST(enlarge, by_nothing_returns_the_input) {
-  EXPECT_EQ(enlarge(sample_balls(), box, {.epsilon = 0}).radii, sample_balls().radii);
-  EXPECT_EQ(enlarge(sample_balls(), box, {.mode = EnlargeMode::absolute, .epsilon = 0}).radii,
+  EXPECT_EQ(enlarge(sample_balls(), sample, {.epsilon = 0}).radii, sample_balls().radii);
+  EXPECT_EQ(enlarge(sample_balls(), sample, {.mode = EnlargeMode::absolute, .epsilon = 0}).radii,
             sample_balls().radii);
-  EXPECT_EQ(enlarge(sample_balls(), box, {.mode = EnlargeMode::multiplicative, .factor = 1}).radii,
+  EXPECT_EQ(enlarge(sample_balls(), sample, {.mode = EnlargeMode::multiplicative, .factor = 1}).radii,
             sample_balls().radii);
 }
 
@@ -76,26 +75,74 @@ TEST(enlarge, never_shrinks_a_radius_by_rounding) {
   for (int i = 0; i < 1000; ++i) radii.push_back(std::sqrt(i) * std::ldexp(1.0, i % 60 - 30));
   const Balls balls{centers, radii, {}, {}};
   for (const EnlargeMode mode : {EnlargeMode::additive, EnlargeMode::absolute, EnlargeMode::multiplicative}) {
-    const Balls grown = enlarge(balls, box, {.mode = mode, .epsilon = 1e-13, .factor = 1 + 0x1p-52});
+    const Balls grown = enlarge(balls, sample, {.mode = mode, .epsilon = 1e-13, .factor = 1 + 0x1p-52});
     for (std::size_t i = 0; i < radii.size(); ++i) ASSERT_GE(grown.radii[i], radii[i]);
   }
 }
 
-TEST(enlarge, accepts_no_ball) { EXPECT_EQ(enlarge({}, box, {}).size(), 0u); }
+TEST(enlarge, accepts_no_ball) { EXPECT_EQ(enlarge({}, sample, {}).size(), 0u); }
 
 TEST(enlarge, names_what_is_wrong) {
   const Balls balls = sample_balls();
-  EXPECT_NE(message(balls, Box{}, {}).find("needs the sample"), std::string::npos);
-  EXPECT_NE(message(balls, box, {.epsilon = -1}).find("epsilon is -1"), std::string::npos);
-  EXPECT_NE(message(balls, box, {.epsilon = std::nan("")}).find("epsilon is"), std::string::npos);
-  EXPECT_NE(message(balls, box, {.mode = EnlargeMode::multiplicative, .factor = 0.5}).find("factor is 0.5"),
-            std::string::npos);
+  EXPECT_NE(message(balls, PointSet{}, {}).find("needs the sample"), std::string::npos);
+  EXPECT_NE(message(balls, sample, {.epsilon = -1}).find("epsilon is -1"), std::string::npos);
+  EXPECT_NE(message(balls, sample, {.epsilon = std::nan("")}).find("epsilon is"), std::string::npos);
+  EXPECT_NE(
+      message(balls, sample, {.mode = EnlargeMode::multiplicative, .factor = 0.5}).find("factor is 0.5"),
+      std::string::npos);
   const double most = std::numeric_limits<double>::max();
-  EXPECT_NE(message({{{0, 0, 0}, {1, 0, 0}}, {0, most}, {}, {}}, box,
+  EXPECT_NE(message({{{0, 0, 0}, {1, 0, 0}}, {0, most}, {}, {}}, sample,
                     {.mode = EnlargeMode::multiplicative, .factor = 2})
                 .find("ball 1"),
             std::string::npos);
-  EXPECT_NE(message({{{0, 0, 0}}, {-3}, {}, {}}, box, {}).find("ball 0"), std::string::npos);
+  EXPECT_NE(message({{{0, 0, 0}}, {-3}, {}, {}}, sample, {}).find("ball 0"), std::string::npos);
+}
+
+TEST(enlarge, modes_with_bounds_say_what_input_is_missing) {
+  EXPECT_NE(message(sample_balls(), sample, {.mode = EnlargeMode::pole_bound}).find("needs the poles"),
+            std::string::npos);
+  EXPECT_NE(message(sample_balls(), {}, {.mode = EnlargeMode::power_diagram})
+                .find("mode power_diagram needs the sample"),
+            std::string::npos);
+}
+
+TEST(enlarge, without_bounds_says_that_every_wish_was_granted) {
+  const Growth growth = geometry::enlarge(sample_balls(), sample, {}, {}).growth;
+  EXPECT_EQ(broken_invariant(growth), "");
+  EXPECT_EQ(growth.radii, sample_balls().radii);
+  EXPECT_EQ(growth.stops, (Array<std::uint8_t>{0, 0, 0}));
+  EXPECT_EQ(growth.betti_before[0], -1);
+}
+
+TEST(enlarge, by_the_power_diagram_reports_the_topology_it_kept) {
+  const Balls apart{{{0, 0, 0}, {4, 0, 0}}, {1, 1}, {0, 1, 2}, {0, 1}};
+  EnlargeOptions options;
+  options.mode = EnlargeMode::power_diagram;
+  options.epsilon = 50;  // of 8
+  const Enlarged grown = geometry::enlarge(apart, sample, {}, options);
+  expect_same_but_radii(grown.balls, apart);
+  EXPECT_NEAR(grown.balls.radii[0], 2, 1e-9);
+  EXPECT_LT(grown.balls.radii[0], 2);
+  EXPECT_EQ(grown.growth.stops, (Array<std::uint8_t>{2, 2}));
+  EXPECT_EQ(grown.growth.betti_before, (std::array<std::int64_t, 3>{2, 0, 0}));
+  EXPECT_EQ(grown.growth.betti_after, (std::array<std::int64_t, 3>{2, 0, 0}));
+}
+
+TEST(growth, reports_broken_invariants) {
+  const Growth good{{{0, 0, 0}}, {1}, {2}, {2}, {1}};
+  ASSERT_EQ(broken_invariant(good), "");
+  Growth g = good;
+  g.grown_radii = {0.5};
+  EXPECT_NE(broken_invariant(g).find("ball 0"), std::string::npos);
+  g = good;
+  g.stops = {4};
+  EXPECT_NE(broken_invariant(g).find("reason 4"), std::string::npos);
+  g = good;
+  g.limits = {std::nan("")};
+  EXPECT_NE(broken_invariant(g).find("limit"), std::string::npos);
+  g = good;
+  g.limits = {};
+  EXPECT_NE(broken_invariant(g), "");
 }
 
 TEST(balls, report_broken_invariants) {

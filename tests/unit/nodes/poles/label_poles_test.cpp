@@ -396,7 +396,8 @@ TEST(label_poles, of_an_open_sheet_are_refused) {
 
 TEST(label_poles, of_a_mesh_without_triangles_are_refused) {
   const PoleSet poles = voronoi_poles(test::cube().points(), {});
-  EXPECT_NE(refusal(poles, {}).find("no triangles"), std::string::npos);
+  EXPECT_NE(refusal(poles, {}, LabelMethod::mesh).find("no triangles"), std::string::npos);
+  EXPECT_NE(refusal(poles, {}, LabelMethod::winding).find("no triangles"), std::string::npos);
   EXPECT_NE(refusal(poles, {test::cube().vertices, {{0, 1, 8}}}).find("damaged"), std::string::npos);
   EXPECT_NE(refusal(poles, {test::cube().vertices, {{0, 1, 1}}}).find("repeated corner"), std::string::npos);
 }

@@ -71,6 +71,8 @@ TEST_F(ReadBack, every_type_holds_the_same_numbers_in_every_format) {
   write("mesh", sample_mesh());
   write("balls", sample_balls());
   write("poles", sample_poles());
+  write("feature_size", sample_feature_size());
+  write("growth", sample_growth());
   write("complex", sample_complex());
   write("axis", axis_with_a_lone_vertex());
   write("cover", sample_cover());
@@ -87,6 +89,8 @@ TEST_F(ReadBack, an_artifact_without_elements_is_a_valid_file_in_every_format) {
   write("points", geometry::PointSet{});
   write("mesh", geometry::TriangleMesh{});
   write("balls", geometry::Balls{});
+  write("feature_size", geometry::LocalFeatureSize{});
+  write("growth", geometry::Growth{});
   write("complex", complex);
   write("axis", axis);
   const ProcessResult result = check_exports(folder);

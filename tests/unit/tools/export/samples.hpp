@@ -1,6 +1,7 @@
 // One small artifact of every type that has formats of its own.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "types/artifact_types.hpp"
@@ -32,6 +33,18 @@ inline geometry::PoleSet sample_poles() {
   poles.unbounded = {0, 0};
   poles.sample_poles = {{0, -1, -1}, {1, 0, -1}, {1, -1, -1}, {0, 1, -1}, {1, -1, -1}};
   return poles;
+}
+
+inline geometry::LocalFeatureSize sample_feature_size() { return {{odd, far}, {0.1, 7}}; }
+
+inline geometry::Growth sample_growth() {
+  geometry::Growth growth;
+  growth.centers = {odd, far};
+  growth.radii = {0.1, 7};
+  growth.grown_radii = {0.25, 7.5};
+  growth.limits = {0.25, std::numeric_limits<double>::infinity()};
+  growth.stops = {2, 0};
+  return growth;
 }
 
 /// Tetrahedron 1 2 3 4, triangle 4 5 6, edge 6 7, vertex 9; balls 0 and 8 are hidden.

@@ -62,6 +62,29 @@ TEST(scene, tells_inner_from_outer_poles) {
   EXPECT_EQ(layers[3].radii[0], 2);
 }
 
+TEST(scene, colours_grown_balls_by_what_stopped_them) {
+  geometry::Growth growth;
+  growth.centers = std::vector<Vec3>{{0, 0, 0}, {9, 0, 0}};
+  growth.radii = std::vector<double>{1, 2};
+  growth.grown_radii = std::vector<double>{1.5, 2};
+  growth.limits = std::vector<double>{1.5, 2};
+  growth.stops = std::vector<std::uint8_t>{0, 2};
+  const auto layers = shown(growth);
+  ASSERT_EQ(names(layers), (Names{"grown balls"}));
+  EXPECT_EQ(layers[0].radii[0], 1.5);
+  EXPECT_EQ(layers[0].find(layers[0].colour_by)->values, (std::vector<double>{0, 2}));
+  EXPECT_EQ(layers[0].find("growth")->values, (std::vector<double>{0.5, 0}));
+}
+
+TEST(scene, colours_samples_by_the_local_feature_size) {
+  geometry::LocalFeatureSize size;
+  size.points = std::vector<Vec3>{{0, 0, 0}, {9, 0, 0}};
+  size.pole_distances = std::vector<double>{1, 2};
+  const auto layers = shown(size);
+  ASSERT_EQ(names(layers), (Names{"local feature size"}));
+  EXPECT_EQ(layers[0].find(layers[0].colour_by)->values, (std::vector<double>{1, 2}));
+}
+
 TEST(scene, shows_of_a_complex_only_what_can_be_seen) {
   // Two tetrahedra with a triangle in common (interior), an edge that hangs on vertex 4, and vertex 6 alone.
   SimplicialComplex complex;

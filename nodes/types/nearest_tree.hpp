@@ -16,8 +16,8 @@ namespace ballflow::geometry {
 class NearestTree {
  public:
   NearestTree() = default;
-  /// The value of item i at a point p will be at least the distance of p and boxes[i], less slacks[i].
-  /// Without slacks they are 0.
+  /// The value of item i at a point p will be at least the distance of p and boxes[i], less slacks[i], which
+  /// may be negative. Without slacks they are 0.
   explicit NearestTree(std::span<const Box> boxes, std::span<const double> slacks = {}) : ids_(boxes.size()) {
     std::iota(ids_.begin(), ids_.end(), 0);
     if (!boxes.empty()) build(boxes, slacks, 0, static_cast<std::int32_t>(boxes.size()));
@@ -84,7 +84,10 @@ class NearestTree {
   void build(std::span<const Box> boxes, std::span<const double> slacks, std::int32_t first,
              std::int32_t last) {
     constexpr std::int32_t leaf_size = 8;
-    Node node{{}, 0, first, last, 0, 0};
+    Node node{
+        {},    slacks.empty() ? 0 : slacks[static_cast<std::size_t>(ids_[static_cast<std::size_t>(first)])],
+        first, last,
+        0,     0};
     for (std::int32_t k = first; k < last; ++k) {
       const auto i = static_cast<std::size_t>(ids_[static_cast<std::size_t>(k)]);
       node.box.add(boxes[i].lower);

@@ -1,0 +1,179 @@
+#include "balls/power_growth.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "shape/gabriel_points.hpp"
+#include "shape/regular_cells.hpp"
+#include "types/nearest_tree.hpp"
+
+namespace ballflow::geometry {
+namespace {
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double stop_before = 1 - 0x1p-41;  // closed balls that reach a point would touch there
+
+/// How large a ball at each of the centers may be so that it does not reach a point.
+std::vector<double> largest_radii(std::span<const Vec3> points, std::span<const Vec3> centers,
+                                  Monitor& monitor) {
+  std::vector<Box> boxes;
+  boxes.reserve(points.size());
+  for (const Vec3& p : points) boxes.push_back({p, p});
+  const NearestTree tree(boxes);
+  std::vector<double> radii(centers.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, centers.size(), 512), [&](const auto& range) {
+    if (monitor.cancelled()) throw Cancelled();
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      const Vec3 c = centers[i];
+      radii[i] = stop_before *
+                 tree.smallest(c, infinity, -infinity, [&](std::size_t g) { return distance(c, points[g]); });
+    }
+  });
+  return radii;
+}
+
+class Growing {
+ public:
+  Growing(const Balls& balls, std::span<const double> wished, Monitor& monitor)
+      : balls_(balls), wished_(wished), monitor_(monitor) {}
+
+  PowerGrowth run(const PowerGrowthOptions& options) {
+    prepare(options);
+    if (!balls_.centers.empty()) {
+      find_limits();
+      grow();
+    }
+    explain();
+    monitor_.step(1);
+    return std::move(result_);
+  }
+
+ private:
+  void prepare(const PowerGrowthOptions& options) {
+    PartMonitor part(monitor_, 0, 0.3);
+    const SimplicialComplex start = alpha_shape(balls_, {options.tolerance}, part);
+    weights_ = start.weights;
+    result_.betti_before = result_.betti_after = start.betti;
+    for (std::size_t i = 0; i < balls_.size(); ++i) {
+      // Without delta this is the radius itself: the root of a rounded square rounds back.
+      first_.push_back(start.delta == 0 ? balls_.radii[i] : std::sqrt(weights_[i]));
+    }
+  }
+
+  void find_limits() {
+    PartMonitor triangulating(monitor_, 0.3, 0.45), searching(monitor_, 0.45, 0.55);
+    cells_ = regular_cells(balls_.centers, weights_, triangulating);
+    const auto points = critical_gabriel_points(balls_.centers, weights_, cells_, searching);
+    result_.limits = largest_radii(points, balls_.centers, monitor_);
+    for (std::size_t i = 0; i < balls_.size(); ++i) {
+      last_.push_back(std::max(first_[i], std::min(wished_[i], result_.limits[i])));
+      added_.push_back(std::max(0.0, last_[i] * last_[i] - weights_[i]));
+      ceased_.push_back(last_[i] < wished_[i] ? 1 : 0);
+    }
+    own_ = added_;
+    // Without any, balls that have got what was asked for have changed the topology.
+    if (std::find(ceased_.begin(), ceased_.end(), 1) == ceased_.end()) ceased_.assign(balls_.size(), 1);
+    monitor_.step(0.6);
+  }
+
+  void grow() {
+    int taken = 0;
+    for (const int steps : {0, 1, 2, 3, 4, 6, 8, 16, 64}) {
+      for (; taken < steps; ++taken) spread();
+      if (accept()) return;
+    }
+    added_.assign(balls_.size(), *std::min_element(added_.begin(), added_.end()));
+    if (accept()) return;
+    result_.radii = first_;
+    monitor_.warn("balls touch within rounding: only the tolerance was added to their radii");
+  }
+
+  /// Balls that have ceased take their neighbours along. Balls without neighbours are hidden in others, and
+  /// stay so when they grow no more than any other.
+  void spread() {
+    monitor_.step(0.6 + 0.04 * static_cast<double>(result_.unions));
+    std::vector<double> added = added_;
+    std::vector<std::uint8_t> ceased = ceased_, hidden(balls_.size(), 1);
+    for (const auto& cell : cells_.cells) {
+      for (const std::int32_t i : cell) {
+        if (i < 0) continue;
+        hidden[at(i)] = 0;
+        for (const std::int32_t j : cell) {
+          if (j < 0 || ceased_[at(j)] == 0) continue;
+          added[at(i)] = std::min(added[at(i)], added_[at(j)]);
+          ceased[at(i)] = 1;
+        }
+      }
+    }
+    const double least = *std::min_element(added.begin(), added.end());
+    for (std::size_t i = 0; i < hidden.size(); ++i) {
+      if (hidden[i] == 1) added[i] = least;
+    }
+    added_ = std::move(added);
+    ceased_ = std::move(ceased);
+  }
+
+  /// Takes what was grown so far when the union has the topology of the start.
+  bool accept() {
+    const double from = 0.6 + 0.04 * static_cast<double>(result_.unions);
+    PartMonitor part(monitor_, from, from + 0.04);
+    std::vector<double> radii(balls_.size());
+    for (std::size_t i = 0; i < radii.size(); ++i) {
+      radii[i] = added_[i] == own_[i]
+                     ? last_[i]
+                     : std::max(first_[i], std::min(last_[i], std::sqrt(weights_[i] + added_[i])));
+    }
+    Balls grown;
+    grown.centers = balls_.centers;
+    grown.radii = radii;
+    const auto betti = alpha_shape(grown, {AlphaTolerance::none}, part).betti;
+    ++result_.unions;
+    if (betti != result_.betti_before) return false;
+    result_.betti_after = betti;
+    result_.radii = std::move(radii);
+    return true;
+  }
+
+  void explain() {
+    for (std::size_t i = 0; i < result_.radii.size(); ++i) {
+      const double grown = result_.radii[i];
+      GrowthStop stop = GrowthStop::neighbour;
+      if (grown >= wished_[i]) {
+        stop = GrowthStop::wish;
+      } else if (grown >= last_[i]) {
+        stop = GrowthStop::gabriel;
+      }
+      result_.stops.push_back(static_cast<std::uint8_t>(stop));
+    }
+  }
+
+  const Balls& balls_;
+  std::span<const double> wished_;
+  Monitor& monitor_;
+  Array<double> weights_;      // at the start
+  std::vector<double> first_;  // radii at the start
+  std::vector<double> last_;   // radii at which balls cease by themselves
+  RegularCells cells_;
+  std::vector<double> own_;           // what is added to weights when balls cease by themselves
+  std::vector<double> added_;         // what is added
+  std::vector<std::uint8_t> ceased_;  // 1 for balls that take their neighbours along
+  PowerGrowth result_;
+};
+
+}  // namespace
+
+PowerGrowth power_growth(const Balls& balls, std::span<const double> wished,
+                         const PowerGrowthOptions& options, Monitor& monitor) {
+  return Growing(balls, wished, monitor).run(options);
+}
+
+}  // namespace ballflow::geometry

@@ -1,0 +1,28 @@
+// How near the medial axis is to the samples of a surface, estimated from poles.
+#pragma once
+
+#include <string>
+
+#include "types/array.hpp"
+#include "types/vec3.hpp"
+
+namespace ballflow::geometry {
+
+/// With D^ for the distance of a sample to the nearest pole, and the sample an r-sample of the surface for
+/// r <= 0.08:
+/// - the distance of the sample to the discrete medial axis, that of the union of the polar balls, is in
+///   [0.817 D^, D^] (thesis, Corollary 4.12)
+/// - its distance to the medial axis of the surface, the local feature size lfs, is at most 1.2802 D^
+///   (thesis, Lemma 4.8)
+struct LocalFeatureSize {
+  static constexpr double discrete_at_least = 0.817;  // times D^
+  static constexpr double at_most = 1.2802;           // times D^
+
+  Array<Vec3> points;            // n x 3, the sample, model units
+  Array<double> pole_distances;  // n, D^, model units, > 0
+};
+
+/// Empty when the invariants above hold, else what is wrong and where.
+std::string broken_invariant(const LocalFeatureSize& size);
+
+}  // namespace ballflow::geometry

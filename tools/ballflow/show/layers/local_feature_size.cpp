@@ -1,0 +1,24 @@
+// LocalFeatureSize: the samples, coloured by their distance to the nearest pole.
+#include "export/typed.hpp"
+#include "show/layer_table.hpp"
+#include "types/artifact_types.hpp"
+
+namespace ballflow::show {
+namespace {
+
+std::vector<Layer> layers(const Artifact& artifact) {
+  const auto size = typed<geometry::LocalFeatureSize>(artifact);
+  Layer layer;
+  layer.name = "local feature size";
+  layer.vertices = size.points;
+  layer.attributes = {
+      {"pole distance", "model units", {}, true, {size.pole_distances.begin(), size.pole_distances.end()}}};
+  layer.colour_by = "pole distance";
+  return {layer};
+}
+
+}  // namespace
+
+TypeLayers local_feature_size_layers() { return {"LocalFeatureSize", layers}; }
+
+}  // namespace ballflow::show
