@@ -101,7 +101,17 @@ Balls canonical(std::vector<Ball> sums) {
   return {std::move(centers), std::move(radii), {}, {}};
 }
 
+double surface_to_union(const Comparison* comparison) {
+  if (comparison == nullptr) return 0;
+  return std::min(comparison->surface_to_union.at_most, comparison->uncovered + comparison->spacing);
+}
+
 }  // namespace
+
+double error_bound(const Comparison* a, const Comparison* b) {
+  if (a == nullptr && b == nullptr) return -1;
+  return surface_to_union(a) + surface_to_union(b);
+}
 
 MinkowskiSum minkowski_sum(const Balls& a, const Balls& b, const MinkowskiSumOptions& options,
                            Monitor& monitor) {
@@ -130,6 +140,9 @@ MinkowskiSum minkowski_sum(const Balls& a, const Balls& b, const MinkowskiSumOpt
   result.report.count = static_cast<std::int64_t>(found.balls.size());
   result.report.touching_boundary = found.touching_boundary;
   result.balls = canonical(std::move(found.balls));
+  const Box box = bounding_box(result.balls);
+  result.report.lower = box.lower;
+  result.report.upper = box.upper;
   return result;
 }
 

@@ -6,10 +6,24 @@
 #pragma once
 
 #include "types/balls.hpp"
+#include "types/comparison.hpp"
 #include "types/minkowski_report.hpp"
 #include "types/monitor.hpp"
 
 namespace ballflow::geometry {
+
+/// No point of the surface of A + B is farther than this from the sum of the unions, for two solids A and B
+/// that were compared with their balls (Compare, with a mesh); null: A is the union of its balls itself.
+/// Negative when both are null: then nothing is known.
+///
+/// Proof. A point of the boundary of A + B is p + q with p and q on the boundaries of A and B, because p + B
+/// is inside A + B for p inside A. It is as far from the sum of the unions as p and q are from theirs,
+/// together, at most. And d(p, U) is at most the largest distance from a surface to the boundary of its union
+/// (Comparison::surface_to_union.at_most), and at most the largest distance of a sample outside U plus the
+/// distance to the next sample (uncovered + spacing); the smaller one counts. (Up to rounding: Compare takes
+/// 2^-30 of the longest edge for 0.) That is h(A + B, U) <= h(A, U_A) + h(B, U_B) (thesis, 5.2) for surfaces:
+/// what is deep inside a solid was not measured.
+double error_bound(const Comparison* a, const Comparison* b);
 
 /// How the sums that contribute are found. All ways give the same balls.
 enum class MinkowskiAlgorithm {

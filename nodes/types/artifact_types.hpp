@@ -12,6 +12,7 @@
 #include "types/cover_state.hpp"
 #include "types/mass_properties.hpp"
 #include "types/medial_axis.hpp"
+#include "types/minkowski_report.hpp"
 #include "types/monitor.hpp"
 #include "types/point_set.hpp"
 #include "types/pole_set.hpp"
@@ -79,6 +80,11 @@ struct TypeOf<geometry::Comparison> {
 template <>
 struct TypeOf<geometry::MassProperties> {
   static void declare(TypeDecl<geometry::MassProperties>& d);
+};
+
+template <>
+struct TypeOf<geometry::MinkowskiReport> {
+  static void declare(TypeDecl<geometry::MinkowskiReport>& d);
 };
 
 template <>

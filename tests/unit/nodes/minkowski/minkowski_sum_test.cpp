@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "contribution_oracle.hpp"
+#include "sample/generate.hpp"
+#include "shape/compare.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -334,6 +336,37 @@ TEST(minkowski_sum, needs_no_general_position_for_its_speed) {
   }
   const MinkowskiSum sum = sum_of(balls_of(a), balls_of({{0, 0, 0, 1}, {0, 0.5, 0, 0.5}}));
   EXPECT_EQ(sum.report.count, 512);
+}
+
+/// A finely triangulated sphere.
+TriangleMesh sphere(double radius) {
+  ShapeOptions options;
+  options.shape = Shape::sphere;
+  options.n = 1500;
+  options.R = radius;
+  return generate(options);
+}
+
+TEST(minkowski_error_bound, holds_for_the_surface_of_the_sum_of_two_solids) {
+  const TriangleMesh mesh_a = sphere(1), mesh_b = sphere(0.5);
+  const Balls a = balls_of({{0, 0, 0, 0.9}}), b = balls_of({{0, 0, 0, 0.45}});
+  const CompareOptions options{.spacing = 1};
+  const Comparison of_a = compare(a, {mesh_a.vertices, {}}, mesh_a, options),
+                   of_b = compare(b, {mesh_b.vertices, {}}, mesh_b, options);
+  // The surface of the sum of two concentric balls of 1 and 0.5 is 0.15 from the sum of balls of 0.9 and
+  // 0.45.
+  EXPECT_GE(error_bound(&of_a, &of_b), 0.15);
+  EXPECT_LE(error_bound(&of_a, &of_b), 0.15 + of_a.spacing + of_b.spacing);
+  // Without a comparison a solid is its balls.
+  EXPECT_GE(error_bound(&of_a, nullptr), 0.1);
+  EXPECT_LE(error_bound(nullptr, &of_b), 0.05 + of_b.spacing);
+  EXPECT_LT(error_bound(nullptr, nullptr), 0);
+}
+
+TEST(minkowski_error_bound, does_not_count_how_far_balls_reach_beyond_the_surface) {
+  const TriangleMesh mesh = sphere(1);
+  const Comparison large = compare(balls_of({{0, 0, 0, 1.5}}), {mesh.vertices, {}}, mesh, {.spacing = 1});
+  EXPECT_LE(error_bound(&large, nullptr), large.spacing);
 }
 
 class CancelAfter final : public Monitor {
