@@ -383,6 +383,36 @@ void TypeOf<geometry::MassProperties>::declare(TypeDecl<geometry::MassProperties
   d.check([](const T& v) { return geometry::broken_invariant(v); });
 }
 
+void TypeOf<geometry::MinkowskiReport>::declare(TypeDecl<geometry::MinkowskiReport>& d) {
+  using T = geometry::MinkowskiReport;
+  d.id("MinkowskiReport", 1).doc("What the Minkowski sum of two sets of balls came to.");
+  d.scalar("pairs", &T::pairs).doc("pairs of balls");
+  d.scalar("survivors", &T::survivors).doc("sums of pairs that were triangulated");
+  d.scalar("count", &T::count).doc("sums that contribute");
+  d.scalar("touching_boundary", &T::touching_boundary).doc("of these, on the boundary of the union");
+  d.scalar("lower", &T::lower).doc("corner of the bounding box of the union, model units");
+  d.scalar("upper", &T::upper).doc("the opposite corner");
+  d.scalar("error_bound", &T::error_bound)
+      .doc("no point of the surface of the sum of the solids is farther from the union; -1: unknown");
+  d.summary("pairs", "pairs of balls").summary("survivors", "sums of pairs that were triangulated");
+  d.summary("count", "sums that contribute: the balls of the result");
+  d.summary("touching_boundary", "of these, have a piece of their sphere on the boundary of the union");
+  d.summary("bbox", "bounding box of the union, model units; null when it is empty");
+  d.summary(
+      "error_bound",
+      "no point of the surface of the sum of the solids is farther from the union, model units; null when "
+      "no error of an input is known");
+  d.summarize([](const T& v) {
+    geometry::Box box;
+    if (v.count > 0) box = {v.lower, v.upper};
+    return Json{
+        {"pairs", v.pairs},      {"survivors", v.survivors},
+        {"count", v.count},      {"touching_boundary", v.touching_boundary},
+        {"bbox", box_json(box)}, {"error_bound", v.error_bound < 0 ? Json(nullptr) : Json(v.error_bound)}};
+  });
+  d.check([](const T& v) { return geometry::broken_invariant(v); });
+}
+
 void TypeOf<geometry::SimplicialComplex>::declare(TypeDecl<geometry::SimplicialComplex>& d) {
   using T = geometry::SimplicialComplex;
   d.id("SimplicialComplex", 1)

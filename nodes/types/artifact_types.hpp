@@ -15,6 +15,7 @@
 #include "types/local_feature_size.hpp"
 #include "types/mass_properties.hpp"
 #include "types/medial_axis.hpp"
+#include "types/minkowski_report.hpp"
 #include "types/monitor.hpp"
 #include "types/point_set.hpp"
 #include "types/pole_set.hpp"
@@ -99,6 +100,11 @@ struct TypeOf<geometry::Comparison> {
 template <>
 struct TypeOf<geometry::MassProperties> {
   static void declare(TypeDecl<geometry::MassProperties>& d);
+};
+
+template <>
+struct TypeOf<geometry::MinkowskiReport> {
+  static void declare(TypeDecl<geometry::MinkowskiReport>& d);
 };
 
 template <>

@@ -1,0 +1,149 @@
+#include "minkowski/minkowski_sum.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "minkowski/containment_filter.hpp"
+#include "minkowski/power_triangulation.hpp"
+#include "minkowski/sums.hpp"
+
+namespace ballflow::geometry {
+namespace {
+
+void require_usable(const Balls& balls, const char* name) {
+  if (const std::string broken = broken_invariant(balls); !broken.empty()) {
+    throw InputError("input " + std::string(name) + ": " + broken, "repair or remove the ball");
+  }
+  const auto usable = [](double x) { return x == 0 || (std::abs(x) >= 1e-150 && std::abs(x) <= 1e150); };
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    const Vec3 c = balls.centers[i];
+    for (const double x : {c.x, c.y, c.z, balls.radii[i]}) {
+      if (usable(x)) continue;
+      char text[32];
+      std::snprintf(text, sizeof text, "%g", x);
+      throw InputError("input " + std::string(name) + ": ball " + std::to_string(i) +
+                           " has the coordinate or radius " + text +
+                           ", whose square leaves the range of doubles",
+                       "scale both inputs, or set tiny numbers to 0");
+    }
+  }
+}
+
+// Measured with the inputs of bench_minkowski: the list and its order take 96 bytes a sum, the triangulation
+// 700 bytes a vertex; at least four sums in five are hidden where there are many.
+constexpr double bytes_per_sum = 240;
+
+void require_memory(std::int64_t sums) {
+  const double bytes = bytes_per_sum * static_cast<double>(sums);
+  const double memory =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (sums < std::numeric_limits<std::int32_t>::max() && bytes <= memory) return;
+  char text[96];
+  std::snprintf(text, sizeof text, "about %.1f GB; the machine has %.1f GB", bytes / 1e9, memory / 1e9);
+  throw InputError(
+      std::to_string(sums) + " sums of two balls would have to be triangulated, which takes " + text,
+      "prune the inputs more (a larger epsilon), or use algorithm filtered or memory");
+}
+
+std::vector<Ball> all_sums(const Sums& sums, Monitor& monitor) {
+  require_memory(sums.pairs());
+  std::vector<Ball> all;
+  all.reserve(static_cast<std::size_t>(sums.pairs()));
+  sums.for_each(monitor, 0, 0.05, [&all](const Ball& sum) { all.push_back(sum); });
+  return all;
+}
+
+/// The sums that do not lie strictly inside another, and some that do. Where a point has a power <= 0 to a
+/// ball inside another it has a smaller one to the other: a dropped ball does not contribute, nor does it
+/// keep a ball from contributing that the other one, or one around that, would not keep.
+std::vector<Ball> filtered_sums(const Sums& sums, Monitor& monitor) {
+  ContainmentFilter filter(sums.box(), std::clamp(static_cast<double>(sums.pairs()) / 16, 1.0, 0x1p18));
+  sums.for_each_bucket(monitor, 0, 0.05, [&filter](const Bucket& one, const Bucket& other) {
+    for (const Ball& ball : one.balls) filter.offer(ball + other.largest);
+    for (const Ball& ball : other.balls) filter.offer(one.largest + ball);
+  });
+  filter.spread(monitor);
+  std::vector<Ball> left;
+  std::size_t looked_at = 0;
+  sums.for_each_bucket(monitor, 0.05, 0.15, [&](const Bucket& one, const Bucket& other) {
+    if (filter.contains(one.bound + other.bound)) return;
+    for (const Ball& a : one.balls) {
+      for (const Ball& b : other.balls) {
+        const Ball sum = a + b;
+        if (!filter.contains(sum)) left.push_back(sum);
+      }
+    }
+    if (left.size() - looked_at >= (std::size_t{1} << 20)) {
+      looked_at = left.size();
+      require_memory(static_cast<std::int64_t>(left.size()));
+    }
+  });
+  return left;
+}
+
+Balls canonical(std::vector<Ball> sums) {
+  std::sort(sums.begin(), sums.end(), [](const Ball& a, const Ball& b) { return a.center < b.center; });
+  std::vector<Vec3> centers;
+  std::vector<double> radii;
+  centers.reserve(sums.size());
+  radii.reserve(sums.size());
+  for (const Ball& sum : sums) {
+    centers.push_back(sum.center);
+    radii.push_back(sum.radius);
+  }
+  return {std::move(centers), std::move(radii), {}, {}};
+}
+
+double surface_to_union(const Comparison* comparison) {
+  if (comparison == nullptr) return 0;
+  return std::min(comparison->surface_to_union.at_most, comparison->uncovered + comparison->spacing);
+}
+
+}  // namespace
+
+double error_bound(const Comparison* a, const Comparison* b) {
+  if (a == nullptr && b == nullptr) return -1;
+  return surface_to_union(a) + surface_to_union(b);
+}
+
+MinkowskiSum minkowski_sum(const Balls& a, const Balls& b, const MinkowskiSumOptions& options,
+                           Monitor& monitor) {
+  require_usable(a, "a");
+  require_usable(b, "b");
+  const Sums sums(a, b);
+  MinkowskiSum result;
+  result.report.pairs = sums.pairs();
+  if (sums.pairs() == 0) return result;
+
+  PowerTriangulation triangulation;
+  if (options.algorithm == MinkowskiAlgorithm::memory) {
+    constexpr std::size_t work = 4096;  // about 10 us
+    sums.for_each(
+        monitor, 0, 0.9, [&](const Ball& sum) { triangulation.insert_if_contributing(sum); }, work);
+    result.report.survivors = static_cast<std::int64_t>(triangulation.vertices());
+  } else {
+    const bool all = options.algorithm == MinkowskiAlgorithm::time;
+    std::vector<Ball> left = all ? all_sums(sums, monitor) : filtered_sums(sums, monitor);
+    result.report.survivors = static_cast<std::int64_t>(left.size());
+    PartMonitor part(monitor, 0.15, 0.9);
+    triangulation.insert(std::move(left), part);
+  }
+  PartMonitor part(monitor, 0.9, 1);
+  Contributing found = triangulation.contributing(part);
+  result.report.count = static_cast<std::int64_t>(found.balls.size());
+  result.report.touching_boundary = found.touching_boundary;
+  result.balls = canonical(std::move(found.balls));
+  const Box box = bounding_box(result.balls);
+  result.report.lower = box.lower;
+  result.report.upper = box.upper;
+  return result;
+}
+
+}  // namespace ballflow::geometry

@@ -1,0 +1,45 @@
+// The regular triangulation of sums of balls, made step by step, and which of them contribute.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "minkowski/sums.hpp"
+#include "types/monitor.hpp"
+
+namespace ballflow::geometry {
+
+struct Contributing {
+  std::vector<Ball> balls;  // in no particular order
+  // Of these, have a piece of their sphere (radius 0: their point) on the boundary of the union.
+  std::int64_t touching_boundary = 0;
+};
+
+/// Of balls at one place the largest stays. Hidden points are forgotten: they do not contribute. Which points
+/// without a cell of their own are vertices is a matter of symbolic perturbation; which contribute is not.
+class PowerTriangulation {
+ public:
+  PowerTriangulation();
+  ~PowerTriangulation();
+  PowerTriangulation(const PowerTriangulation&) = delete;
+  PowerTriangulation& operator=(const PowerTriangulation&) = delete;
+
+  /// Inserts fewer than 2^31 balls, in an order that makes it fast.
+  void insert(std::vector<Ball> balls, Monitor& monitor);
+
+  /// Inserts the ball when it contributes among those that are vertices. Quick when the last one was near.
+  void insert_if_contributing(const Ball& ball);
+
+  std::size_t vertices() const;
+
+  /// The balls that contribute among all inserted. Ends the triangulation.
+  Contributing contributing(Monitor& monitor);
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace ballflow::geometry

@@ -1,0 +1,73 @@
+// The sums of all pairs of two sets of balls, made when they are needed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "types/balls.hpp"
+#include "types/monitor.hpp"
+#include "types/vec3.hpp"
+
+namespace ballflow::geometry {
+
+struct Ball {
+  Vec3 center;
+  double radius = 0;
+};
+
+/// -0 becomes 0, so that equal balls have equal bytes.
+inline Ball operator+(const Ball& a, const Ball& b) {
+  return {{(a.center.x + b.center.x) + 0.0, (a.center.y + b.center.y) + 0.0, (a.center.z + b.center.z) + 0.0},
+          a.radius + b.radius};
+}
+
+/// Balls of one of the sets that are close to each other.
+struct Bucket {
+  std::vector<Ball> balls;
+  Ball bound;    // around them all
+  Ball largest;  // one of them
+};
+
+class Sums {
+ public:
+  Sums(const Balls& a, const Balls& b);
+
+  std::int64_t pairs() const { return pairs_; }
+  /// Of the centers of all sums.
+  const Box& box() const { return box_; }
+
+  /// Calls visit(bucket of one set, bucket of the other) for all pairs of buckets; the progress goes from
+  /// `begin` to `end`. A pair of balls is as much work as visiting `work` array elements.
+  template <class Visit>
+  void for_each_bucket(Monitor& monitor, double begin, double end, Visit visit, std::size_t work = 8) const {
+    PartMonitor part(monitor, begin, end);
+    Lookout look(monitor);
+    for (std::size_t i = 0; i < a_.size(); ++i) {
+      for (const Bucket& b : b_) {
+        if (look.due(work * a_[i].balls.size() * b.balls.size())) {
+          part.step(static_cast<double>(i) / static_cast<double>(a_.size()));
+        }
+        visit(a_[i], b);
+      }
+    }
+  }
+
+  /// Calls visit(sum) for all pairs.
+  template <class Visit>
+  void for_each(Monitor& monitor, double begin, double end, Visit visit, std::size_t work = 8) const {
+    const auto visit_all = [&visit](const Bucket& one, const Bucket& other) {
+      for (const Ball& a : one.balls) {
+        for (const Ball& b : other.balls) visit(a + b);
+      }
+    };
+    for_each_bucket(monitor, begin, end, visit_all, work);
+  }
+
+ private:
+  std::vector<Bucket> a_, b_;
+  std::int64_t pairs_ = 0;
+  Box box_;
+};
+
+}  // namespace ballflow::geometry
