@@ -172,7 +172,7 @@ enum class Place : std::uint8_t { out, in, on };
 /// A Voronoi vertex: one or more Delaunay cells with the same circumcentre.
 struct VoronoiVertex {
   Place place = Place::out;
-  // A ball for Place::on, whose centre this is; else (number of balls) + (first Delaunay cell).
+  // A ball for Place::on, whose centre this is; else (number of balls) + (lowest Delaunay cell).
   std::int32_t name = 0;
 };
 
@@ -197,6 +197,7 @@ class Axis {
 
   void add_regular_part();
   void place_cells();
+  void merge_coincident();
   bool all_on(std::int32_t ball, std::span<const std::int32_t> sites) const;
   std::int32_t common_ball(std::span<const std::int32_t> sites) const;
   double depth(std::int32_t w, Vec3 x) const;
@@ -318,6 +319,33 @@ void Axis::place_cells() {
   }
 }
 
+/// Gives neighbouring cells inside R with one circumcentre one name: five and more sites on a sphere, as
+/// symmetric unions have. What lies between them are Voronoi edges and facets without length and area.
+void Axis::merge_coincident() {
+  const std::int32_t first = balls();
+  const auto name_of = [&](std::int32_t cell) {
+    while (vertices_[at(cell)].name != first + cell) {
+      std::int32_t& name = vertices_[at(cell)].name;
+      name = vertices_[at(name - first)].name;
+      cell = name - first;
+    }
+    return cell;
+  };
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(cells_.size()); ++i) {
+    if (i % 65536 == 0) monitor_.step(0.7);
+    if (vertices_[at(i)].place != Place::in) continue;
+    for (const std::int32_t j : cells_[at(i)].neighbors) {
+      if (j >= i || vertices_[at(j)].place != Place::in) continue;
+      if (squared_distance(positions_[at(i)], positions_[at(j)]) > same_ * same_) continue;
+      const std::int32_t a = name_of(i), b = name_of(j);
+      vertices_[at(std::max(a, b))].name = first + std::min(a, b);
+    }
+  }
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(cells_.size()); ++i) {
+    if (vertices_[at(i)].place == Place::in) vertices_[at(i)].name = first + name_of(i);
+  }
+}
+
 void Axis::add_regular_part() {
   Box box;
   for (const std::int32_t b : complex_.vertices) {
@@ -332,6 +360,7 @@ void Axis::add_regular_part() {
   cells_ = delaunay_cells(sites_.points, second);
   monitor_.step(0.5);
   place_cells();
+  merge_coincident();
   add_facets();
 }
 

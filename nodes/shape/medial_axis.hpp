@@ -23,7 +23,8 @@ struct MedialAxisOptions {
 /// - Accepts every dual complex: empty, flat, without tetrahedra (the axis is then the complex itself), with
 ///   cavities, singular parts, several components, balls on a grid.
 /// - Vertices are ball centres (radius: that of the ball) and Voronoi vertices of W (radius: the distance
-///   to W); vertices, edges and polygons are sorted by the balls that define them.
+///   to W). Voronoi vertices so close to each other that rounding alone may part them are one. Vertices,
+///   edges and polygons are sorted by the balls that define them; the direction of a polygon is its sheet's.
 /// - Every polygon is plane and convex up to rounding; where one point of W belongs to several triangles of
 ///   the boundary of R (balls on a grid) it may be only plane.
 /// - Its kind is wall where a side of it is an edge of the boundary of R, which then hangs on that side.

@@ -49,6 +49,16 @@ struct RenderTest : testing::Test {
   test::TempFolder folder;
 };
 
+TEST_F(RenderTest, says_on_a_terminal_how_much_is_drawn) {
+  const std::string command = test::binary_file("bin/ballflow") + " render shape:torus --size 300x200 -o " +
+                              folder.file("picture.png");
+  const auto shown =
+      test::run_process({"/usr/bin/script", "-qec", command, "/dev/null"}, {{"TERM", "xterm"}});
+  EXPECT_EQ(shown.exit_code, 0) << shown.out << shown.err;
+  EXPECT_NE(shown.out.find("\r\033[K  100 % drawn\r\033[K"), std::string::npos) << shown.out;
+  EXPECT_EQ(render({"shape:torus"}).err, "") << "in a pipe";
+}
+
 TEST_F(RenderTest, draws_the_outputs_of_a_run_the_same_way_each_time) {
   run_medial_axis();
   const auto result = render({"latest"});

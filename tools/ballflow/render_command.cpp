@@ -1,4 +1,7 @@
+#include <unistd.h>
+
 #include <algorithm>
+#include <atomic>
 #include <cctype>
 #include <charconv>
 #include <cstdio>
@@ -41,6 +44,29 @@ class SignalMonitor final : public geometry::Monitor {
 
  private:
   const std::atomic<bool>& flag_ = cancel_on_signals();
+};
+
+/// Says on a terminal how much is drawn.
+class DrawingMonitor final : public geometry::Monitor {
+ public:
+  ~DrawingMonitor() override {
+    if (live_) std::fprintf(stderr, "\r\033[K");
+  }
+  bool cancelled() override { return flag_.load(); }
+  void progress(double fraction) override {
+    const int percent = static_cast<int>(100 * fraction);
+    int shown = shown_.load();
+    while (live_ && percent > shown) {
+      if (!shown_.compare_exchange_weak(shown, percent)) continue;
+      std::fprintf(stderr, "\r\033[K  %d %% drawn", percent);
+      break;
+    }
+  }
+
+ private:
+  const std::atomic<bool>& flag_ = cancel_on_signals();
+  const bool live_ = isatty(STDERR_FILENO) != 0;
+  std::atomic<int> shown_ = -1;
 };
 
 bool is_model(const std::string& name) {
@@ -275,7 +301,11 @@ int render(const Common& common, const RenderArguments& arguments) {
     std::vector<Source> sources = find_sources(common, arguments.names, monitor);
     for (const std::string& text : arguments.colour_by) colour(sources, text);
     for (const std::string& text : arguments.opacity) set_opacity(sources, text);
-    const show::Image image = show::draw_beside(scenes_of(sources, arguments), options, monitor);
+    const std::vector<std::vector<show::Layer>> scenes = scenes_of(sources, arguments);
+    const show::Image image = [&] {
+      DrawingMonitor drawing;
+      return show::draw_beside(scenes, options, drawing);
+    }();
     write_atomically(arguments.output, show::png(image));
   } catch (const geometry::Cancelled&) {
     throw Error(ExitCode::cancelled, "cancelled; no picture was written");

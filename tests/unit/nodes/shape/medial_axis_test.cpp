@@ -193,12 +193,13 @@ TEST(medial_axis, of_a_cube_of_balls_that_meet_in_the_middle_of_its_sides_is_fou
   // Six boundary vertices (four spheres through each): twelve facets, one hanging on each edge of the cube.
   EXPECT_EQ(count(r.axis, AxisKind::wall), 12);
   expect_topology_of_the_union(r, "cube");
-  const Vec3 middle{0.5, 0.5, 0.5};
-  for (std::size_t i = 0; i < r.axis.vertices.size(); ++i) {
-    const Vec3 v = r.axis.vertices[i];
-    const bool corner = std::find(corners.begin(), corners.end(), v) != corners.end();
-    EXPECT_TRUE(corner || distance(v, middle) < 1e-12) << v.x << " " << v.y << " " << v.z;
-  }
+  // The six vertices are cospherical: their Delaunay cells are one Voronoi vertex.
+  ASSERT_EQ(r.axis.vertices.size(), 9u);
+  EXPECT_LT(distance(r.axis.vertices[8], {0.5, 0.5, 0.5}), 1e-12);
+  EXPECT_EQ(r.axis.polygons(), 12u);
+  EXPECT_EQ(r.axis.sheet_orientable.size(), 12u);
+  EXPECT_EQ(r.axis.seams.size(), 8u) << "from every corner to the middle";
+  for (const std::int32_t degree : r.axis.seam_degrees) EXPECT_EQ(degree, 3);
 }
 
 TEST(medial_axis, of_a_ring_of_balls_has_one_tunnel) {
@@ -491,6 +492,30 @@ TEST(medial_axis, of_balls_around_a_torus_is_one_sheet_with_two_sides) {
   EXPECT_EQ(r.axis.sheet_orientable, (Array<std::uint8_t>{1}));
   EXPECT_EQ(r.axis.seams.size(), 0u);
   expect_sheets_and_seams(r.axis);
+}
+
+TEST(medial_axis, of_a_flat_box_of_balls_is_a_plane_of_rectangles_and_a_wall_for_every_edge_of_its_boundary) {
+  // 4 x 4 x 2 balls. The boundary has 30 squares with one vertex of the union above each, 60 edges, 32
+  // corners. Half-way between the layers the vertices above and below are equally far: nine rectangles, the
+  // outer ones cut off by the vertices beside the box.
+  std::vector<Vec3> centers;
+  for (int i = 0; i < 32; ++i) centers.push_back({double(i % 4), double(i / 4 % 4), double(i / 16)});
+  const Result r = axis_of(centers, 0.9);
+  expect_topology_of_the_union(r, "flat box");
+  expect_sheets_and_seams(r.axis);
+  EXPECT_EQ(count(r.axis, AxisKind::wall), 60);
+  EXPECT_EQ(count(r.axis, AxisKind::voronoi), 9);
+  EXPECT_EQ(r.axis.sheet_orientable.size(), 69u);
+  ASSERT_EQ(r.axis.vertices.size(), 32u + 16u);
+  std::vector<Vec3> expected;
+  for (const double x : {0.5, 1.0, 2.0, 2.5}) {
+    for (const double y : {0.5, 1.0, 2.0, 2.5}) expected.push_back({x, y, 0.5});
+  }
+  for (const Vec3 e : expected) {
+    double nearest = 1;
+    for (std::size_t v = 32; v < 48; ++v) nearest = std::min(nearest, distance(r.axis.vertices[v], e));
+    EXPECT_LT(nearest, 1e-12) << e.x << " " << e.y;
+  }
 }
 
 TEST(medial_axis, of_balls_along_a_moebius_band_is_one_sheet_with_one_side) {
