@@ -63,7 +63,7 @@ TopologyRepair repaired(const Balls& balls, const Ids& kept, const TopologyRepai
   EXPECT_TRUE(std::is_sorted(repair.returned.begin(), repair.returned.end()));
   const Ids after = merged(kept, repair.returned);
   EXPECT_EQ(std::adjacent_find(after.begin(), after.end()), after.end()) << "a kept ball was returned";
-  EXPECT_TRUE(UnionOfBalls(balls, no_monitor()).inclusion_of(after, no_monitor()).isomorphism());
+  EXPECT_TRUE(UnionOfBalls(balls, no_monitor()).inclusion_of(after).isomorphism());
   EXPECT_TRUE(repair.check.inclusion_after().isomorphism());
   EXPECT_EQ(repair.check.returned, static_cast<std::int64_t>(repair.returned.size()));
   return repair;
@@ -219,8 +219,7 @@ TEST(listing_3_2, keeps_the_topology_of_balls_that_overlap_deeply) {
   const Balls ring = make_balls(circle(30), 0.25);
   const Ids kept = all_but(30, {4, 5, 6, 17});
   const Ids returned = listing_3_2(ring, kept, no_monitor());
-  EXPECT_TRUE(
-      UnionOfBalls(ring, no_monitor()).inclusion_of(merged(kept, returned), no_monitor()).isomorphism());
+  EXPECT_TRUE(UnionOfBalls(ring, no_monitor()).inclusion_of(merged(kept, returned)).isomorphism());
   EXPECT_GE(returned.size(), 1u);
 }
 
@@ -239,9 +238,8 @@ TEST(topology_repair, by_listing_3_2_is_an_isomorphism_and_returns_no_fewer_ball
     literal += repaired(instance.balls, instance.kept, {.method = RepairMethod::literal}).returned.size();
     localised += repaired(instance.balls, instance.kept).returned.size();
     const Ids listed = listing_3_2(instance.balls, instance.kept, no_monitor());
-    missed += !UnionOfBalls(instance.balls, no_monitor())
-                   .inclusion_of(merged(instance.kept, listed), no_monitor())
-                   .isomorphism();
+    missed +=
+        !UnionOfBalls(instance.balls, no_monitor()).inclusion_of(merged(instance.kept, listed)).isomorphism();
   }
   EXPECT_GT(localised, 10u);
   EXPECT_LE(localised, literal);
