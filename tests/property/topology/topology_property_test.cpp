@@ -73,6 +73,11 @@ Ids merged(Ids a, const Ids& b) {
   return a;
 }
 
+/// GUDHI needs four balls.
+Betti gudhi_betti(const SimplicialComplex& complex) {
+  return test::gudhi_complex(complex.centers, complex.weights).betti;
+}
+
 class EveryModel : public testing::TestWithParam<Model> {};
 
 TEST_P(EveryModel, keeps_its_topology_from_the_surface_to_the_medial_axis) {
@@ -93,11 +98,12 @@ TEST_P(EveryModel, keeps_its_topology_from_the_surface_to_the_medial_axis) {
   if (GetParam().well_sampled) {
     for (const Betti& row : table.betti) EXPECT_EQ(row, solid);
   }
-  EXPECT_EQ(after, alpha_shape(p.all, {}, no_monitor()).betti);
-  EXPECT_EQ(after, test::gudhi_complex(complex.centers, complex.weights).betti);
+  const UnionOfBalls whole(p.all, no_monitor());
+  EXPECT_EQ(after, whole.complex().betti);
+  EXPECT_EQ(after, gudhi_betti(kept.size() < 4 ? whole.complex() : complex));
   EXPECT_EQ(after, table.betti[*table.row(TopologyStage::axis)]);
   EXPECT_EQ(complex.euler_characteristic(), axis_topology(axis).euler_characteristic);
-  EXPECT_TRUE(UnionOfBalls(p.all, no_monitor()).inclusion_of(ids).isomorphism());
+  EXPECT_TRUE(whole.inclusion_of(ids).isomorphism());
 }
 
 TEST_P(EveryModel, is_repaired_when_every_third_kept_ball_is_missing) {
@@ -117,26 +123,23 @@ TEST_P(EveryModel, is_repaired_when_every_third_kept_ball_is_missing) {
   EXPECT_TRUE(whole.inclusion_of(after).isomorphism());
   const Balls balls = select(few, after);
   const SimplicialComplex complex = alpha_shape(balls, {}, no_monitor());
-  EXPECT_EQ(test::gudhi_complex(complex.centers, complex.weights).betti,
-            test::gudhi_complex(whole.complex().centers, whole.complex().weights).betti);
+  if (few.size() >= 4) EXPECT_EQ(gudhi_betti(complex), gudhi_betti(whole.complex()));
 }
 
-TEST_P(EveryModel, has_the_same_topology_when_it_is_rotated_or_scaled) {
+TEST_P(EveryModel, has_the_same_topology_when_it_is_rotated_and_scaled) {
   const std::string file = path_of(GetParam());
   if (file.empty()) GTEST_SKIP() << "the folder of test models is absent";
   const Pipeline p = prune(file, 0.3);
   const UnionOfBalls whole(p.all, no_monitor());
   const InclusionHomology expected = whole.inclusion_of(p.kept);
-  for (const double scale : {1.0, 0.7}) {
-    std::vector<Vec3> centers;
-    std::vector<double> radii;
-    for (std::size_t i = 0; i < p.all.size(); ++i) {
-      const Vec3 c = scale * p.all.centers[i];
-      centers.push_back({0.6 * c.x - 0.8 * c.y, 0.8 * c.x + 0.6 * c.y, c.z});
-      radii.push_back(scale * p.all.radii[i]);
-    }
-    EXPECT_EQ(UnionOfBalls({centers, radii, {}, {}}, no_monitor()).inclusion_of(p.kept), expected) << scale;
+  std::vector<Vec3> centers;
+  std::vector<double> radii;
+  for (std::size_t i = 0; i < p.all.size(); ++i) {
+    const Vec3 c = 0.7 * p.all.centers[i];
+    centers.push_back({0.6 * c.x - 0.8 * c.y, 0.8 * c.x + 0.6 * c.y, c.z});
+    radii.push_back(0.7 * p.all.radii[i]);
   }
+  EXPECT_EQ(UnionOfBalls({centers, radii, {}, {}}, no_monitor()).inclusion_of(p.kept), expected);
 }
 
 std::string name_of(const testing::TestParamInfo<Model>& info) {
@@ -148,7 +151,7 @@ std::string name_of(const testing::TestParamInfo<Model>& info) {
 INSTANTIATE_TEST_SUITE_P(
     Generated, EveryModel,
     testing::Values(Model{"shape:sphere?n=1500", 0, true}, Model{"shape:torus?n=2500", 1, true},
-                    Model{"shape:doubleTorus?n=4000", 2, true}, Model{"shape:knot?n=4000", 1, true},
+                    Model{"shape:doubleTorus?n=4000", 2, true}, Model{"shape:knot?n=2500", 1, true},
                     Model{"shape:3cross?n=4000", 0, true}, Model{"shape:torusBalls?n=6000", 1, true}),
     name_of);
 INSTANTIATE_TEST_SUITE_P(Files, EveryModel,
