@@ -23,7 +23,8 @@ UnionOfBalls::UnionOfBalls(const Balls& balls, Monitor& monitor)
     : UnionOfBalls(balls, alpha_shape(balls, {}, monitor), monitor) {}
 
 UnionOfBalls::UnionOfBalls(const Balls& balls, SimplicialComplex complex, Monitor& monitor)
-    : balls_(balls),
+    : monitor_(monitor),
+      balls_(balls),
       complex_(std::make_unique<const SimplicialComplex>(std::move(complex))),
       loops_(std::make_unique<FirstHomology>(*complex_, monitor)) {
   // Two computations that have nothing in common: linear algebra here, components and cavities there.
@@ -36,14 +37,13 @@ UnionOfBalls::UnionOfBalls(const Balls& balls, SimplicialComplex complex, Monito
 
 const RegularCells& UnionOfBalls::cells() const {
   if (!cells_) {
-    cells_ =
-        std::make_unique<RegularCells>(regular_cells(complex_->centers, complex_->weights, no_monitor()));
+    cells_ = std::make_unique<RegularCells>(regular_cells(complex_->centers, complex_->weights, monitor_));
   }
   return *cells_;
 }
 
-const Voids& UnionOfBalls::voids(Monitor& monitor) const {
-  if (!voids_) voids_ = std::make_unique<Voids>(*complex_, cells(), monitor);
+const Voids& UnionOfBalls::voids() const {
+  if (!voids_) voids_ = std::make_unique<Voids>(*complex_, cells(), monitor_);
   return *voids_;
 }
 
@@ -62,24 +62,21 @@ std::int32_t UnionOfBalls::vertex_at(std::int32_t ball) const {
   return known;
 }
 
-InclusionHomology UnionOfBalls::inclusion_of(std::span<const std::int32_t> part, Monitor& monitor) const {
-  return Inclusion(*this, part, monitor).homology();
+InclusionHomology UnionOfBalls::inclusion_of(std::span<const std::int32_t> part) const {
+  return Inclusion(*this, part).homology();
 }
 
-bool UnionOfBalls::isomorphic_to(std::span<const std::int32_t> part, Monitor& monitor) const {
+bool UnionOfBalls::isomorphic_to(std::span<const std::int32_t> part) const {
   const Balls balls = select(balls_, part);
-  SimplicialComplex complex = alpha_shape(balls, {}, monitor);
+  SimplicialComplex complex = alpha_shape(balls, {}, monitor_);
   if (complex.betti != complex_->betti) return false;
-  return Inclusion(*this, part, UnionOfBalls(balls, std::move(complex), monitor), monitor)
-      .homology()
-      .isomorphism();
+  return Inclusion(*this, part, UnionOfBalls(balls, std::move(complex), monitor_)).homology().isomorphism();
 }
 
-Inclusion::Inclusion(const UnionOfBalls& whole, std::span<const std::int32_t> ids, Monitor& monitor)
-    : Inclusion(whole, ids, UnionOfBalls(select(whole.balls(), ids), monitor), monitor) {}
+Inclusion::Inclusion(const UnionOfBalls& whole, std::span<const std::int32_t> ids)
+    : Inclusion(whole, ids, UnionOfBalls(select(whole.balls(), ids), whole.monitor_)) {}
 
-Inclusion::Inclusion(const UnionOfBalls& whole, std::span<const std::int32_t> ids, UnionOfBalls part,
-                     Monitor& monitor)
+Inclusion::Inclusion(const UnionOfBalls& whole, std::span<const std::int32_t> ids, UnionOfBalls part)
     : whole_(whole), ids_(ids.begin(), ids.end()), part_(std::move(part)) {
   homology_.part = part_.complex().betti;
   homology_.whole = whole.complex().betti;
@@ -95,14 +92,13 @@ Inclusion::Inclusion(const UnionOfBalls& whole, std::span<const std::int32_t> id
   homology_.rank[0] = distinct(component_image_);
 
   for (std::size_t k = 0; k < part_.loops().dimension(); ++k) {
-    monitor.step(0.5);
+    whole.monitor_.step(0.5);
     loop_image_.push_back(image_of(part_.loops().loop(k)));
   }
   homology_.rank[1] = static_cast<std::int64_t>(binary_rank(loop_image_));
 
   void_image_ = {Voids::outer};
-  if (homology_.part[2] > 0 || homology_.whole[2] > 0)
-    void_image_ = whole.voids(monitor).inside(part_.voids(monitor));
+  if (homology_.part[2] > 0 || homology_.whole[2] > 0) void_image_ = whole.voids().inside(part_.voids());
   homology_.rank[2] = distinct(void_image_) - 1;
 }
 

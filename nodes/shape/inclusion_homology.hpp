@@ -34,7 +34,8 @@ namespace ballflow::geometry {
 /// one are the same over Z/2: that the maps are isomorphisms over the integers as well is not checked.
 class UnionOfBalls {
  public:
-  /// Any balls that keep their invariants, as for alpha_shape; radii are taken as they are.
+  /// Any balls that keep their invariants, as for alpha_shape; radii are taken as they are. The monitor is
+  /// looked at as long as this object lives.
   UnionOfBalls(const Balls& balls, Monitor& monitor);
   /// The same with the alpha-shape of the balls, where it is known.
   UnionOfBalls(const Balls& balls, SimplicialComplex complex, Monitor& monitor);
@@ -43,18 +44,20 @@ class UnionOfBalls {
   const SimplicialComplex& complex() const { return *complex_; }
   const FirstHomology& loops() const { return *loops_; }
   /// Made when first asked for.
-  const Voids& voids(Monitor& monitor) const;
+  const Voids& voids() const;
   const PowerWalk& walk() const;
   /// The vertex of K+ in whose power cell the centre of a ball lies.
   std::int32_t vertex_at(std::int32_t ball) const;
 
-  InclusionHomology inclusion_of(std::span<const std::int32_t> part, Monitor& monitor) const;
+  InclusionHomology inclusion_of(std::span<const std::int32_t> part) const;
   /// inclusion_of(part).isomorphism(), sooner where it is false.
-  bool isomorphic_to(std::span<const std::int32_t> part, Monitor& monitor) const;
+  bool isomorphic_to(std::span<const std::int32_t> part) const;
 
  private:
+  friend class Inclusion;
   const RegularCells& cells() const;
 
+  Monitor& monitor_;
   Balls balls_;
   std::unique_ptr<const SimplicialComplex> complex_;  // what voids refer to, wherever this object moves
   std::unique_ptr<FirstHomology> loops_;
@@ -67,10 +70,9 @@ class UnionOfBalls {
 /// How U*, the union of `ids` (ascending), lies in U+: the maps, with what a repair wants to know.
 class Inclusion {
  public:
-  Inclusion(const UnionOfBalls& whole, std::span<const std::int32_t> ids, Monitor& monitor);
+  Inclusion(const UnionOfBalls& whole, std::span<const std::int32_t> ids);
   /// The same with the union of the balls `ids`, where it is known.
-  Inclusion(const UnionOfBalls& whole, std::span<const std::int32_t> ids, UnionOfBalls part,
-            Monitor& monitor);
+  Inclusion(const UnionOfBalls& whole, std::span<const std::int32_t> ids, UnionOfBalls part);
 
   const InclusionHomology& homology() const { return homology_; }
   const UnionOfBalls& part() const { return part_; }

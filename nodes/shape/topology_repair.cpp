@@ -339,7 +339,7 @@ class Diagnosis {
   std::vector<Ids> seeds_of_voids() const {
     const InclusionHomology& h = inclusion_.homology();
     if (h.rank[2] == h.part[2] && h.rank[2] == h.whole[2]) return {};
-    const Voids& voids = inclusion_.part().voids(monitor_);
+    const Voids& voids = inclusion_.part().voids();
     std::vector<std::int32_t> held(at(voids.count()));
     for (const std::int32_t v : inclusion_.void_image()) ++held[at(v)];
     std::vector<Ids> result;
@@ -426,7 +426,7 @@ class Repair {
   Inclusion compare(const Ids& returned) {
     ++check_.inclusions;
     monitor_.note(std::to_string(returned.size()) + " balls returned");
-    return Inclusion(whole_, merged(kept_, returned), monitor_);
+    return Inclusion(whole_, merged(kept_, returned));
   }
 
   /// Returns more and more balls until nothing differs.
@@ -467,7 +467,7 @@ class Repair {
     const auto enough = [&](const Ids& some) {
       ++attempts;
       ++check_.inclusions;
-      return whole_.isomorphic_to(merged(kept_, some), monitor_);
+      return whole_.isomorphic_to(merged(kept_, some));
     };
     for (std::size_t block = (returned_.size() + 1) / 2; block > 0;
          block = block == 1 ? 0 : (block + 1) / 2) {
@@ -511,8 +511,11 @@ TopologyRepair repair_topology(const Balls& balls, std::span<const std::int32_t>
                          std::to_string(most_literal) + ")",
                      "use method localised");
   }
-  const UnionOfBalls whole(balls, monitor);
-  return Repair(whole, Ids(kept.begin(), kept.end()), options, monitor).run();
+  PartMonitor still(monitor, 0.5, 0.5);  // how many comparisons it takes is not known
+  const UnionOfBalls whole(balls, still);
+  const TopologyRepair repair = Repair(whole, Ids(kept.begin(), kept.end()), options, still).run();
+  monitor.step(1);
+  return repair;
 }
 
 TopologyRepair repair_topology(const Balls& balls, const CoverState& cover,

@@ -127,6 +127,20 @@ TEST_P(EveryStrategy, prunes_in_any_graph_with_equal_digests_for_any_number_of_t
   ASSERT_NE(select, nullptr);
 }
 
+class EveryRepair : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryRepair, follows_any_pruning_with_equal_digests_for_any_number_of_threads) {
+  const Dag dag =
+      load_graph(test::source_file("graphs/medial_axis.json"), registry(),
+                 {{"input", "shape:torus?n=3000"}, {"strategy", "greedy"}, {"repair", GetParam()}});
+  const auto results = run_with_threads(dag, {1, 2, 4});
+  ASSERT_EQ(results[0].status, ExitCode::ok);
+  expect_equal_digests(dag, results);
+}
+
+INSTANTIATE_TEST_SUITE_P(Repairs, EveryRepair, testing::ValuesIn(names_in("graphs/repair")),
+                         [](const auto& instance) { return instance.param; });
+
 INSTANTIATE_TEST_SUITE_P(Strategies, EveryStrategy, testing::ValuesIn(names_in("graphs/strategies")),
                          [](const auto& instance) { return instance.param; });
 

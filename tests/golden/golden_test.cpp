@@ -89,6 +89,8 @@ TEST_P(Golden, has_the_topology_of_the_model_and_the_figures_of_before) {
     EXPECT_EQ(now["medial_axis"]["euler_characteristic"], c.euler_characteristic);
     EXPECT_EQ(now["alpha_shape"]["betti"], Json({1, 1 - c.euler_characteristic, 0}));
     EXPECT_EQ(now["medial_axis"]["components"], 1);
+    EXPECT_EQ(now["topology"]["surface"], now["alpha_shape"]["betti"]);
+    EXPECT_EQ(now["topology"]["changes"], 0);
     EXPECT_EQ(now["check"]["uncovered"], 0);
     EXPECT_EQ(now["cover"]["remaining"], 0);
   }

@@ -125,6 +125,7 @@ class Artifact:
         pass
 
     read_CoverCheck = read_Comparison = read_Bisection = read_CoverState
+    read_TopologyTable = read_TopologyCheck = read_CoverState
 
     def balls(self):
         return [(*p, r) for p, r in zip(self.points, self.radii)]
@@ -221,8 +222,20 @@ def check_stl(data, artifact):
         same(rows(values[3:12], 3), [float32_row(artifact.points[v]) for v in triangle], f"triangle {i}")
 
 
+def check_topology_csv(lines, arrays):
+    same(lines[0], "stage,euler,components,tunnels,cavities", "names")
+    names = ["surface", "inner", "enlarged", "kept", "complex", "axis"]
+    expected = []
+    for stage, euler, betti in zip(arrays["stages"], arrays["euler"], arrays["betti"]):
+        numbers = [""] * 4 if betti[0] < 0 else [str(n) for n in (euler, *betti)]
+        expected.append(",".join([names[stage], *numbers]))
+    same(lines[1:], expected, "rows")
+
+
 def check_csv(data, artifact):
     lines = data.decode("ascii").splitlines()
+    if artifact.type == "TopologyTable":
+        return check_topology_csv(lines, artifact.arrays)
     if artifact.type == "CoverState":
         names = ["ball", "how"]
         expected = list(zip(artifact.arrays["chosen"], artifact.arrays["chosen_how"]))

@@ -38,6 +38,7 @@ TypeFormats growth_formats();
 TypeFormats cover_state_formats();
 TypeFormats simplicial_complex_formats();
 TypeFormats medial_axis_formats();
+TypeFormats topology_table_formats();
 
 /// What every type can be written as.
 std::vector<Format> generic_formats();

@@ -24,7 +24,7 @@ namespace {
 using Ids = std::vector<std::int32_t>;
 
 InclusionHomology inclusion(const Balls& balls, const Ids& part) {
-  return UnionOfBalls(balls, no_monitor()).inclusion_of(part, no_monitor());
+  return UnionOfBalls(balls, no_monitor()).inclusion_of(part);
 }
 
 Balls make_balls(std::vector<Vec3> centers, double radius) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -63,7 +64,7 @@ TopologyRepair repaired(const Balls& balls, const Ids& kept, const TopologyRepai
   EXPECT_TRUE(std::is_sorted(repair.returned.begin(), repair.returned.end()));
   const Ids after = merged(kept, repair.returned);
   EXPECT_EQ(std::adjacent_find(after.begin(), after.end()), after.end()) << "a kept ball was returned";
-  EXPECT_TRUE(UnionOfBalls(balls, no_monitor()).inclusion_of(after, no_monitor()).isomorphism());
+  EXPECT_TRUE(UnionOfBalls(balls, no_monitor()).inclusion_of(after).isomorphism());
   EXPECT_TRUE(repair.check.inclusion_after().isomorphism());
   EXPECT_EQ(repair.check.returned, static_cast<std::int64_t>(repair.returned.size()));
   return repair;
@@ -219,8 +220,7 @@ TEST(listing_3_2, keeps_the_topology_of_balls_that_overlap_deeply) {
   const Balls ring = make_balls(circle(30), 0.25);
   const Ids kept = all_but(30, {4, 5, 6, 17});
   const Ids returned = listing_3_2(ring, kept, no_monitor());
-  EXPECT_TRUE(
-      UnionOfBalls(ring, no_monitor()).inclusion_of(merged(kept, returned), no_monitor()).isomorphism());
+  EXPECT_TRUE(UnionOfBalls(ring, no_monitor()).inclusion_of(merged(kept, returned)).isomorphism());
   EXPECT_GE(returned.size(), 1u);
 }
 
@@ -234,18 +234,22 @@ TEST(listing_3_2, misses_two_balls_inside_a_third) {
 TEST(topology_repair, by_listing_3_2_is_an_isomorphism_and_returns_no_fewer_balls) {
   std::mt19937_64 random(3);
   std::size_t literal = 0, localised = 0, missed = 0;
-  for (int round = 0; round < 30; ++round) {
+  for (int round = 0; round < 100; ++round) {
     const Instance instance = random_instance(random, 24, 0.3 + 0.1 * unit(random), false);
     literal += repaired(instance.balls, instance.kept, {.method = RepairMethod::literal}).returned.size();
     localised += repaired(instance.balls, instance.kept).returned.size();
     const Ids listed = listing_3_2(instance.balls, instance.kept, no_monitor());
-    missed += !UnionOfBalls(instance.balls, no_monitor())
-                   .inclusion_of(merged(instance.kept, listed), no_monitor())
-                   .isomorphism();
+    const InclusionHomology h =
+        UnionOfBalls(instance.balls, no_monitor()).inclusion_of(merged(instance.kept, listed));
+    missed += !h.isomorphism();
+    // It sees what crosses something; only components that meet nothing escape it here.
+    EXPECT_EQ((std::array{h.part[1], h.part[2]}), (std::array{h.rank[1], h.rank[2]})) << "round " << round;
+    EXPECT_EQ((std::array{h.whole[1], h.whole[2]}), (std::array{h.rank[1], h.rank[2]})) << "round " << round;
   }
   EXPECT_GT(localised, 10u);
-  EXPECT_LE(localised, literal);
-  EXPECT_LE(missed, 6u) << "Listing 3.2 is right but for balls that cross nothing";
+  EXPECT_LT(localised, literal);
+  EXPECT_GT(missed, 0u);
+  EXPECT_LT(missed, 10u);
 }
 
 TEST(topology_repair, does_not_depend_on_the_order_of_the_balls) {
