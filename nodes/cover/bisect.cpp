@@ -76,20 +76,20 @@ Bisection bisect(const Bisection& before, const CoverState& cover, const BisectO
   Bisection search = before;
   ++search.tried;
   const auto needed = static_cast<std::int64_t>(cover.chosen.size());
+  const auto enough = (1 - options.tolerance) * static_cast<double>(options.balls);
   if (needed > options.balls) {
     search.too_small = search.value;
     search.balls_before = needed;
-    return advance(search, options);
+  } else {
+    search.large_enough = search.value;
+    search.balls = needed;
   }
-  search.large_enough = search.value;
-  search.balls = needed;
-  const bool close =
-      static_cast<double>(needed) >= (1 - options.tolerance) * static_cast<double>(options.balls);
-  search = close ? done(search) : advance(search, options);
-  if (search.done == 1 && !close) {
+  const auto close = [&] { return search.balls >= 0 && static_cast<double>(search.balls) >= enough; };
+  search = close() ? done(search) : advance(search, options);
+  if (search.done == 1 && !close()) {
     monitor.warn(search.value == 0
-                     ? "without any growth " + std::to_string(needed) + " balls are enough, fewer than the " +
-                           std::to_string(options.balls) + " asked for"
+                     ? "without any growth " + std::to_string(search.balls) +
+                           " balls are enough, fewer than the " + std::to_string(options.balls) + " asked for"
                      : "the number of balls jumps from " + std::to_string(search.balls_before) + " to " +
                            std::to_string(search.balls) + " at a growth of " + std::to_string(search.value));
   }

@@ -15,14 +15,17 @@ struct AngleLabels {
   std::vector<std::uint8_t> uncertain;  // 1 or 0
 };
 
-/// Labels spread from the unbounded poles, which are outer, in the order of their certainty. With
-/// d = (Rp^2 + Rq^2 - |pq|^2) / (2 Rp Rq), the cosine of the angle p s q at any point s where the spheres of
-/// p and q meet (near 1 for balls that are almost the same, -1 for balls that touch from outside):
-/// - the two poles p and q of a sample have different labels with certainty -d
-/// - p and q that are neighbours in the power diagram of all polar balls have the same label with certainty d
-/// Evidence that is not positive is none. The pole with the most evidence for one label goes next; poles with
-/// evidence for both labels go after all others, the clearest first. Ties are broken by radius and
-/// coordinates.
+/// Labels spread from the unbounded poles, which are outer, from ball to ball through the samples that their
+/// spheres share. With d = (Rp^2 + Rq^2 - |pq|^2) / (2 Rp Rq), the cosine of the angle p s q at a shared
+/// sample s: near 1 for balls on one side of the surface, near -1 for balls on both sides:
+/// - d > 0 says that p and q have the same label, with certainty d
+/// - d < 0 says that their labels differ, with certainty -d
+/// The pole with the most evidence for one label goes next; poles with evidence for both labels go after all
+/// others, the clearest first. Ties are broken by radius and coordinates.
+///
+/// Amenta and Kolluri take the two poles of each sample for the second, and for the first all neighbours in
+/// the power diagram of the polar balls. That diagram is degenerate wherever polar balls meet in a sample,
+/// and so more expensive than all the rest, and its labels are not better.
 ///
 /// Right for well sampled smooth surfaces. Wrong near sharp edges, where noise is as large as the spacing of
 /// samples, between sheets that are closer than the spacing, and it leaks through holes.

@@ -150,6 +150,12 @@ LabelledPoles label_by_angle(const PoleSet& poles, const LabelPolesOptions& opti
     monitor.warn(std::to_string(result.unlabelled) + " of " + std::to_string(all) +
                  " poles are neither inner nor outer: nothing connects them with the outside");
   }
+  if (result.uncertain * 100 > all) {
+    monitor.warn(
+        std::to_string(result.uncertain) + " of " + std::to_string(all) +
+        " poles are uncertain, as at sharp edges, noise, and sheets close to each other: the evidence "
+        "against their label is at least half as strong as that for it");
+  }
   result.poles.labels = std::move(found.labels);
   result.poles = select_kept(result.poles, kept);
   result.inner = select_label(result.poles, inner);

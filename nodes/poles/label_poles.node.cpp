@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "types/artifact_types.hpp"
-#include "types/cgal_version.hpp"
 
 namespace ballflow::nodes {
 namespace {
@@ -28,9 +27,10 @@ struct LabelPoles {
         "an integer, counted with exact predicates: right at sharp edges, where the sample is too coarse, "
         "with cavities and with self-intersections. For open meshes it is the generalized winding number. "
         "Triangles that face inconsistent ways are turned over; the mesh may be inside out. Without a mesh, "
-        "for clouds of points, labels spread from the unbounded poles, which are outer: deeply intersecting "
-        "neighbours in the power diagram of the polar balls share a label, opposite poles of a sample do "
-        "not, the most certain first (method angle). That is right for well sampled smooth surfaces; it "
+        "for clouds of points, labels spread from the unbounded poles, which are outer: two balls through "
+        "one "
+        "sample share a label where they overlap deeply, and do not where they lie on opposite sides of it, "
+        "the most certain pairs first (method angle). That is right for well sampled smooth surfaces; it "
         "fails at sharp edges, at noise as large as the spacing, between sheets closer than the spacing, and "
         "leaks through holes. Where both poles of a sample are on one side, as at sharp edges, the farthest "
         "candidate on the other side becomes its third pole. The summary of `poles` adds method, uncertain "
@@ -42,8 +42,7 @@ struct LabelPoles {
     d.cites("kornberger2010", "3.4").cites("aichholzer2007", "labels from a mesh");
     d.cites("amentakolluri2000", "labels without a mesh");
     d.cites("jacobson2013", "generalized winding number").cites("barill2018", "hierarchical evaluation");
-    d.library("CGAL", geometry::cgal_version());
-    d.memory(1 << 20, 10);
+    d.memory(1 << 20, 2.5);
     d.input("poles", &LabelPoles::poles).doc("poles of a sample, labelled or not");
     d.input("mesh", &LabelPoles::mesh)
         .optional()

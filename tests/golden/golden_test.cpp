@@ -44,7 +44,7 @@ const std::vector<Case>& cases() {
       {"knot_points", "dmt_points", {{"input", "shape:knot?n=8000"}}, kNoTopology},
       {"double_torus_growth",
        "growth",
-       {{"input", "shape:doubleTorus?n=4000"}, {"epsilon", "10"}},
+       {{"input", "shape:doubleTorus?n=4000"}, {"epsilon", "30"}},
        kNoTopology},
       {"double_torus_pole_bound",
        "growth",

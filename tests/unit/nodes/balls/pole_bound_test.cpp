@@ -147,6 +147,24 @@ TEST(pole_bound, keeps_the_balls_of_enlarge_and_says_which_were_stopped) {
   EXPECT_EQ(grown.growth.betti_after[0], -1);
 }
 
+TEST(pole_bound, of_bad_sets_of_balls_shrinks_nothing) {
+  const Case c = random_case(6);
+  std::vector<double> wide;
+  for (int i = 0; i < 40; ++i) wide.push_back(std::ldexp(1.0, -i));  // 12 orders of magnitude
+  const std::vector<Balls> sets = {{},
+                                   {{{0.5, 0.5, 0.5}}, {0}, {}, {}},
+                                   {{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}, {1, 1, 0}, {}, {}},
+                                   {{c.sizes.points[0], c.sizes.points[1]}, {0, 0}, {}, {}},  // at samples
+                                   {std::vector<Vec3>(40, Vec3{0.1, 0.2, 0.3}), wide, {}, {}}};
+  for (const Balls& balls : sets) {
+    const auto found = pole_bounds(balls, c.sizes, std::vector<double>(balls.size(), infinity), {});
+    ASSERT_EQ(found.size(), balls.size());
+    for (const double bound : found) EXPECT_TRUE(bound > 0 && bound < infinity) << bound;
+  }
+  // Without samples nothing bounds anything.
+  EXPECT_EQ(pole_bounds(sets[1], {}, std::vector<double>{5}, {})[0], infinity);
+}
+
 TEST(pole_bound, below_the_radius_leaves_the_ball_as_it_is) {
   const PointSet sample{{{1, 0, 0}, {-1, 0, 0.1}, {0, 1, 0}, {0, -1, 0.2}, {0, 0, 1}, {0, 0.1, -1}}, {}};
   EnlargeOptions options;

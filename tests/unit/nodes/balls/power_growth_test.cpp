@@ -415,6 +415,28 @@ TEST(power_growth, of_permuted_mirrored_and_scaled_balls_is_permuted_mirrored_an
   }
 }
 
+TEST(power_growth, of_turned_balls_is_the_same_but_for_rounding) {
+  const Balls balls = random_balls(60, 0.2, 22);
+  const PowerGrowth grown = power_growth(balls, larger(balls, 0.3), exactly);
+  std::vector<Vec3> centers;
+  std::vector<double> radii;
+  Vec3 u{2.8, 2.2, -0.2}, v{-1.6, 2.6, 1.8};
+  u = 1 / length(u) * u;
+  v = v - dot(u, v) * u;
+  v = 1 / length(v) * v;
+  const Vec3 w = cross(u, v);
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    const Vec3 c = balls.centers[i];
+    centers.push_back(3.5 * (c.x * u + c.y * v + c.z * w));
+    radii.push_back(3.5 * balls.radii[i]);
+  }
+  const Balls turned{centers, radii, {}, {}};
+  const PowerGrowth other = power_growth(turned, larger(turned, 3.5 * 0.3), exactly);
+  EXPECT_EQ(other.betti_before, grown.betti_before);
+  EXPECT_EQ(other.unions, grown.unions);
+  for (std::size_t i = 0; i < balls.size(); ++i) EXPECT_NEAR(other.radii[i], 3.5 * grown.radii[i], 1e-9) << i;
+}
+
 TEST(power_growth, stops_when_cancelled) {
   struct Impatient final : Monitor {
     bool cancelled() override { return true; }

@@ -99,6 +99,19 @@ TEST(angle_labels, of_a_cloud_are_found_without_being_asked_for) {
   EXPECT_EQ(broken_invariant(found.poles), "");
 }
 
+TEST(angle_labels, of_a_coarse_and_crumpled_surface_come_with_a_warning) {
+  struct Warnings final : Monitor {
+    std::string text;
+    void warn(const std::string& warning) override { text += warning + "\n"; }
+  } warnings;
+  Mesh crumpled = test::sphere(4);
+  std::mt19937 random(2);
+  for (Vec3& v : crumpled.vertices) v = (0.7 + 0.3 * static_cast<double>(random()) / 4294967296.0) * v;
+  const LabelledPoles found = label_poles(voronoi_poles(crumpled.points(), {}), {}, by_angle, warnings);
+  EXPECT_GT(found.uncertain * 100, static_cast<std::int64_t>(found.poles.size()));
+  EXPECT_NE(warnings.text.find(std::to_string(found.uncertain) + " of "), std::string::npos) << warnings.text;
+}
+
 TEST(angle_labels, need_no_mesh_but_the_other_methods_do) {
   const PoleSet poles = voronoi_poles(test::cube().points(), {});
   EXPECT_NO_THROW(label_poles(poles, {}, by_angle));
