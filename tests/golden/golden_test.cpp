@@ -40,6 +40,10 @@ const std::vector<Case>& cases() {
       {"knot", "medial_axis", {{"input", "shape:knot?n=8000"}}, 0},
       {"torus_hybrid", "medial_axis", {{"input", "shape:torus?n=6000"}, {"strategy", "hybrid"}}, 0},
       {"balls", "balls", {}, kNoTopology},  // a ring of balls and one ball apart: Betti 2 1 0
+      {"minkowski_sum",
+       "minkowski_sum",
+       {{"a", "shape:torus?n=2000"}, {"b", "shape:knot?n=3000&R=0.2"}},
+       kNoTopology},
       {"box_dmt", "dmt", {{"input", "shape:box?n=2000"}}, kNoTopology},
   };
   return all;

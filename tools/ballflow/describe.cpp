@@ -74,6 +74,17 @@ std::string comparison(const Json& s) {
   return text;
 }
 
+std::string minkowski(const Json& s) {
+  std::string text = number(s, "pairs") + " pairs, " + number(s, "count") + " contribute, " +
+                     number(s, "touching_boundary") + " on the boundary";
+  if (s.at("error_bound").is_number()) {
+    char bound[32];
+    std::snprintf(bound, sizeof bound, "%.4g", s.at("error_bound").get<double>());
+    text += ", error at most " + std::string(bound);
+  }
+  return text;
+}
+
 std::string axis(const Json& s) {
   return counted(s, "polygons", "polygon") + ", " + counted(s, "edges", "free edge") +
          ", Euler characteristic " + number(s, "euler_characteristic");
@@ -117,6 +128,7 @@ std::string describe(const OutputEntry& output) {
          return number(s, "covered") + " of " + number(s, "samples") + " samples covered";
        }},
       {"Comparison", comparison},
+      {"MinkowskiReport", minkowski},
       {"SimplicialComplex", complex},
       {"MedialAxis", axis},
   };
