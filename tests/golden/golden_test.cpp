@@ -70,7 +70,10 @@ TEST_P(Golden, has_the_topology_of_the_model_and_the_figures_of_before) {
   Runner runner(dag, registry(), Store::open({}), {}, silent);
   const RunResult& result = runner.run();
   for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
-    ASSERT_EQ(result.nodes[i].status, NodeStatus::run) << dag.nodes[i].path << ": " << result.nodes[i].cause;
+    // Skipped: no output of the graph needs it. Were it for a failure, that node would be found here as well.
+    const NodeStatus status = result.nodes[i].status;
+    ASSERT_TRUE(status == NodeStatus::run || status == NodeStatus::skipped)
+        << dag.nodes[i].path << ": " << result.nodes[i].cause;
   }
   const Json now = figures(dag, result);
   if (c.euler_characteristic != kNoTopology) {
