@@ -57,7 +57,7 @@ std::vector<Ball> in_insertion_order(const std::vector<Ball>& balls, Monitor& mo
   }
   const SpaceOrder place(box);
   constexpr std::uint64_t lots = 7;
-  constexpr int bits_of_size = 40;  // leaves 7 bits a coordinate: about 10 balls of large sums are close
+  constexpr int bits_of_size = 42;  // leaves 6 bits a coordinate: about 10 balls of large sums are close
   std::vector<std::pair<std::uint64_t, std::uint32_t>> keys(balls.size());
   for (std::size_t i = 0; i < balls.size(); ++i) {
     const Vec3 c = balls[i].center;
@@ -67,7 +67,7 @@ std::vector<Ball> in_insertion_order(const std::vector<Ball>& balls, Monitor& mo
       hash ^= hash >> 31;
     }
     const auto lot = lots - std::min(static_cast<std::uint64_t>(std::countr_zero(hash)) / 3, lots);
-    const double smallness = largest > 0 ? (1 - balls[i].radius / largest) * 0x1p39 : 0;
+    const double smallness = largest > 0 ? (1 - balls[i].radius / largest) * 0x1p41 : 0;
     keys[i] = {lot << 60 | place(c) >> bits_of_size << bits_of_size | static_cast<std::uint64_t>(smallness),
                static_cast<std::uint32_t>(i)};
   }

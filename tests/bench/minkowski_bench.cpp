@@ -9,6 +9,7 @@
 #include <CGAL/Regular_triangulation_3.h>
 #include <CGAL/Regular_triangulation_cell_base_3.h>
 #include <CGAL/Regular_triangulation_vertex_base_3.h>
+#include <CGAL/Triangulation_vertex_base_with_info_3.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -20,6 +21,8 @@
 #include <cstring>
 #include <functional>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "balls/enlarge.hpp"
@@ -161,21 +164,33 @@ Result sum(const Balls& a, const Balls& b, MinkowskiAlgorithm algorithm) {
   });
 }
 
-/// What there is to beat: nothing but the vertices of the triangulation, from which no sum can be told.
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Weighted_point_3;
+using Cell = CGAL::Regular_triangulation_cell_base_3<Kernel, CGAL::Triangulation_cell_base_3<Kernel>,
+                                                     CGAL::Discard_hidden_points>;
+using Bare = CGAL::Regular_triangulation_vertex_base_3<Kernel>;
+using Indexed = CGAL::Triangulation_vertex_base_with_info_3<std::int32_t, Kernel, Bare>;
+
+/// What there is to beat, and nothing but the insertion: no test of the vertices.
+template <class Vertex>
 Result cgal(const Balls& a, const Balls& b) {
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  using Cell = CGAL::Regular_triangulation_cell_base_3<Kernel, CGAL::Triangulation_cell_base_3<Kernel>,
-                                                       CGAL::Discard_hidden_points>;
-  using Triangulation = CGAL::Regular_triangulation_3<
-      Kernel, CGAL::Triangulation_data_structure_3<CGAL::Regular_triangulation_vertex_base_3<Kernel>, Cell>>;
+  using Triangulation =
+      CGAL::Regular_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<Vertex, Cell>>;
+  constexpr bool indexed = std::is_same_v<Vertex, Indexed>;
+  using Item = std::conditional_t<indexed, std::pair<Point, std::int32_t>, Point>;
   return measure([&](Result& result) {
-    std::vector<Kernel::Weighted_point_3> points;
+    std::vector<Item> points;
     points.reserve(a.size() * b.size());
     for (std::size_t i = 0; i < a.size(); ++i) {
       for (std::size_t j = 0; j < b.size(); ++j) {
         const Vec3 c = a.centers[i] + b.centers[j];
         const double r = a.radii[i] + b.radii[j];
-        points.emplace_back(Kernel::Point_3(c.x, c.y, c.z), r * r);
+        const Point point(Kernel::Point_3(c.x, c.y, c.z), r * r);
+        if constexpr (indexed) {
+          points.emplace_back(point, static_cast<std::int32_t>(points.size()));
+        } else {
+          points.push_back(point);
+        }
       }
     }
     const Triangulation triangulation(points.begin(), points.end());
@@ -196,9 +211,11 @@ Result best_of(int repetitions, const std::function<Result()>& run) {
 void report(const Case& size, int repetitions) {
   const Balls a = make(size.a), b = make(size.b);
   std::printf("%s: %zu x %zu = %zu pairs\n", size.name, a.size(), b.size(), a.size() * b.size());
-  const Result all = best_of(repetitions, [&] { return cgal(a, b); });
-  std::printf("  %-10s %8.2f s %6.0f MB  %9.0f vertices\n", "CGAL", all.seconds, all.megabytes,
-              all.survivors);
+  const Result with_index = best_of(repetitions, [&] { return cgal<Indexed>(a, b); });
+  const Result bare = best_of(repetitions, [&] { return cgal<Bare>(a, b); });
+  for (const auto& [name, r] : {std::pair{"CGAL", with_index}, std::pair{"CGAL, bare", bare}}) {
+    std::printf("  %-10s %8.2f s %6.0f MB  %9.0f vertices\n", name, r.seconds, r.megabytes, r.survivors);
+  }
   struct Algorithm {
     const char* name;
     MinkowskiAlgorithm value;
@@ -210,8 +227,10 @@ void report(const Case& size, int repetitions) {
     const Result r = best_of(value == MinkowskiAlgorithm::memory ? 1 : repetitions,
                              [&, algorithm = value] { return sum(a, b, algorithm); });
     std::printf(
-        "  %-10s %8.2f s %6.0f MB  %9.0f survivors %8.0f contribute %7.0f on the boundary  %.2f x CGAL\n",
-        name, r.seconds, r.megabytes, r.survivors, r.count, r.touching, r.seconds / all.seconds);
+        "  %-10s %8.2f s %6.0f MB  %9.0f survivors %8.0f contribute %7.0f on the boundary  %.2f x CGAL, %.2f "
+        "x bare\n",
+        name, r.seconds, r.megabytes, r.survivors, r.count, r.touching, r.seconds / with_index.seconds,
+        r.seconds / bare.seconds);
   }
 }
 

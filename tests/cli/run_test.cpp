@@ -116,6 +116,24 @@ TEST_F(CliTest, a_cover_as_small_as_its_bound_is_called_the_fewest_possible) {
   EXPECT_EQ(greedy.out.find("the fewest possible"), std::string::npos) << greedy.out;
 }
 
+TEST_F(CliTest, changing_one_side_of_a_minkowski_sum_leaves_the_other_in_the_cache) {
+  const auto sum = [&](const std::string& b) {
+    return ballflow({"run", test::source_file("graphs/minkowski_sum.json"), "--set", "a=shape:torus?n=1000", "--set",
+                     "b=" + b, "--report", folder.file("report.json")});
+  };
+  ASSERT_EQ(sum("shape:sphere?n=500&R=0.2").exit_code, 0);
+  ASSERT_EQ(sum("shape:box?n=500&R=0.2").exit_code, 0);
+  int hits = 0, runs = 0;
+  for (const auto& [path, status] : statuses(report())) {
+    const bool of_a = path.starts_with("prune_a") || path.starts_with("compare_a");
+    if (status == "skipped") continue;  // no output of the graph needs it
+    EXPECT_EQ(status, of_a ? "hit" : "run") << path;
+    (of_a ? hits : runs) += 1;
+  }
+  EXPECT_GT(hits, 5);
+  EXPECT_GT(runs, 5);
+}
+
 TEST_F(CliTest, plan_and_check_say_what_a_run_would_do) {
   const std::string graph = test::source_file("graphs/medial_axis.json");
   EXPECT_NE(ballflow({"plan", graph, "--set", small}).out.find("RUN"), std::string::npos);

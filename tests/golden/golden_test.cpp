@@ -40,6 +40,10 @@ const std::vector<Case>& cases() {
       {"knot", "medial_axis", {{"input", "shape:knot?n=8000"}}, 0},
       {"torus_hybrid", "medial_axis", {{"input", "shape:torus?n=6000"}, {"strategy", "hybrid"}}, 0},
       {"balls", "balls", {}, kNoTopology},  // a ring of balls and one ball apart: Betti 2 1 0
+      {"minkowski_sum",
+       "minkowski_sum",
+       {{"a", "shape:torus?n=2000"}, {"b", "shape:knot?n=3000&R=0.2"}},
+       kNoTopology},
       {"box_dmt", "dmt", {{"input", "shape:box?n=2000"}}, kNoTopology},
       {"knot_points", "dmt_points", {{"input", "shape:knot?n=8000"}}, kNoTopology},
       {"double_torus_growth",
@@ -81,7 +85,10 @@ TEST_P(Golden, has_the_topology_of_the_model_and_the_figures_of_before) {
   Runner runner(dag, registry(), Store::open({}), {}, silent);
   const RunResult& result = runner.run();
   for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
-    ASSERT_EQ(result.nodes[i].status, NodeStatus::run) << dag.nodes[i].path << ": " << result.nodes[i].cause;
+    // Skipped: no output of the graph needs it. Were it for a failure, that node would be found here as well.
+    const NodeStatus status = result.nodes[i].status;
+    ASSERT_TRUE(status == NodeStatus::run || status == NodeStatus::skipped)
+        << dag.nodes[i].path << ": " << result.nodes[i].cause;
   }
   const Json now = figures(dag, result);
   if (c.euler_characteristic != kNoTopology) {

@@ -81,6 +81,17 @@ std::string growth(const Json& s) {
   return text;
 }
 
+std::string minkowski(const Json& s) {
+  std::string text = number(s, "pairs") + " pairs, " + number(s, "count") + " contribute, " +
+                     number(s, "touching_boundary") + " on the boundary";
+  if (s.at("error_bound").is_number()) {
+    char bound[32];
+    std::snprintf(bound, sizeof bound, "%.4g", s.at("error_bound").get<double>());
+    text += ", error at most " + std::string(bound);
+  }
+  return text;
+}
+
 std::string axis(const Json& s) {
   return counted(s, "polygons", "polygon") + " in " + counted(s, "sheets", "sheet") + ", " +
          counted(s, "edges", "free edge") + ", Euler characteristic " + number(s, "euler_characteristic");
@@ -134,6 +145,7 @@ std::string describe(const OutputEntry& output) {
          return counted(s, "count", "sample") + ", nearest pole from " + s.at("min_pole_distance").dump() +
                 " to " + s.at("max_pole_distance").dump() + " away";
        }},
+      {"MinkowskiReport", minkowski},
       {"SimplicialComplex", complex},
       {"MedialAxis", axis},
       {"TopologyTable", [](const Json& s) { return s.at("words").get<std::string>(); }},
