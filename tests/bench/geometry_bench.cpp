@@ -106,9 +106,7 @@ struct Model {
     if (inner_.size() == 0) inner_ = label_poles(voronoi_poles(mesh.points, {}), mesh.mesh, {}).inner;
     return inner_;
   }
-  Balls enlarged(double epsilon) {
-    return enlarge(inner(), bounding_box(mesh.points.points), {.epsilon = epsilon});
-  }
+  Balls enlarged(double epsilon) { return enlarge(inner(), mesh.points, {}, {.epsilon = epsilon}).balls; }
   MeshFile mesh;
 
  private:

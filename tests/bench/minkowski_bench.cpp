@@ -58,7 +58,8 @@ Balls pruned(const Model& model) {
   const MeshFile mesh = sample(options, 0);
   const Box box = bounding_box(mesh.points.points);
   const Balls inner = label_poles(voronoi_poles(mesh.points, {}), mesh.mesh, {}).inner;
-  const CoverMatrix matrix = cover_matrix(enlarge(inner, box, {.epsilon = model.epsilon}), mesh.points);
+  const CoverMatrix matrix =
+      cover_matrix(enlarge(inner, mesh.points, {}, {.epsilon = model.epsilon}).balls, mesh.points);
   const Balls few = select_balls(greedy(matrix.cover), matrix.balls, {});
   const double scale = model.size > 0 ? model.size / box.longest_edge() : 1;
   std::vector<Vec3> centers;
