@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "shape/alpha_classes.hpp"
 #include "shape/gabriel_points.hpp"
 #include "shape/regular_cells.hpp"
 #include "types/nearest_tree.hpp"
@@ -59,19 +60,19 @@ class Growing {
 
  private:
   void prepare(const PowerGrowthOptions& options) {
-    PartMonitor part(monitor_, 0, 0.3);
-    const SimplicialComplex start = alpha_shape(balls_, {options.tolerance}, part);
-    weights_ = start.weights;
+    PartMonitor triangulating(monitor_, 0, 0.3), classifying(monitor_, 0.3, 0.45);
+    weights_ = ball_weights(balls_, options.tolerance);
+    cells_ = regular_cells(balls_.centers, weights_, triangulating);
+    const SimplicialComplex start = alpha_classes(cells_, balls_.centers, weights_, classifying);
     result_.betti_before = result_.betti_after = start.betti;
     for (std::size_t i = 0; i < balls_.size(); ++i) {
       // Without delta this is the radius itself: the root of a rounded square rounds back.
-      first_.push_back(start.delta == 0 ? balls_.radii[i] : std::sqrt(weights_[i]));
+      first_.push_back(options.tolerance == AlphaTolerance::none ? balls_.radii[i] : std::sqrt(weights_[i]));
     }
   }
 
   void find_limits() {
-    PartMonitor triangulating(monitor_, 0.3, 0.45), searching(monitor_, 0.45, 0.55);
-    cells_ = regular_cells(balls_.centers, weights_, triangulating);
+    PartMonitor searching(monitor_, 0.45, 0.55);
     const auto points = critical_gabriel_points(balls_.centers, weights_, cells_, searching);
     result_.limits = largest_radii(points, balls_.centers, monitor_);
     for (std::size_t i = 0; i < balls_.size(); ++i) {

@@ -17,7 +17,17 @@ double tolerance(const Balls& balls, AlphaTolerance kind) {
   return std::ldexp(edge * edge, -36);
 }
 
-std::vector<double> squared_radii(const Balls& balls, double delta) {
+}  // namespace
+
+std::vector<double> ball_weights(const Balls& balls, AlphaTolerance kind) {
+  if (const std::string broken = broken_invariant(balls); !broken.empty()) {
+    throw InputError(broken, "repair or remove the ball before computing the alpha-shape");
+  }
+  if (balls.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+    throw InputError(std::to_string(balls.size()) + " balls, but indices have 31 bits",
+                     "prune the balls first");
+  }
+  const double delta = tolerance(balls, kind);
   std::vector<double> weights;
   weights.reserve(balls.size());
   for (std::size_t i = 0; i < balls.size(); ++i) {
@@ -31,23 +41,13 @@ std::vector<double> squared_radii(const Balls& balls, double delta) {
   return weights;
 }
 
-}  // namespace
-
 SimplicialComplex alpha_shape(const Balls& balls, const AlphaShapeOptions& options, Monitor& monitor) {
-  if (const std::string broken = broken_invariant(balls); !broken.empty()) {
-    throw InputError(broken, "repair or remove the ball before computing the alpha-shape");
-  }
-  if (balls.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-    throw InputError(std::to_string(balls.size()) + " balls, but indices have 31 bits",
-                     "prune the balls first");
-  }
-  const double delta = tolerance(balls, options.tolerance);
-  const Array<double> weights(squared_radii(balls, delta));
+  const Array<double> weights(ball_weights(balls, options.tolerance));
   PartMonitor triangulating(monitor, 0, 0.6);
   const RegularCells cells = regular_cells(balls.centers, weights, triangulating);
   PartMonitor classifying(monitor, 0.6, 1);
   SimplicialComplex complex = alpha_classes(cells, balls.centers, weights, classifying);
-  complex.delta = delta;
+  complex.delta = tolerance(balls, options.tolerance);
   monitor.step(1);
   return complex;
 }

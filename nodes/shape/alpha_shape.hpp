@@ -8,6 +8,8 @@
 // thesis, 2.6) and is homotopy equivalent to the union of the closed balls.
 #pragma once
 
+#include <vector>
+
 #include "types/balls.hpp"
 #include "types/monitor.hpp"
 #include "types/simplicial_complex.hpp"
@@ -26,6 +28,11 @@ struct AlphaShapeOptions {
   // than rounding and far less than a feature. Enlarged balls need `none`.
   AlphaTolerance tolerance = AlphaTolerance::none;
 };
+
+/// The weights of the balls in their power diagram: squared radii and the tolerance.
+/// Throws InputError for balls that break their invariants or have a radius whose square overflows, and for
+/// 2^31 balls or more.
+std::vector<double> ball_weights(const Balls& balls, AlphaTolerance tolerance);
 
 /// The dual complex of `balls`, with classes of simplices and Betti numbers of the union.
 /// - Accepts no ball, one ball, collinear and coplanar centers, radius 0, nested, touching, equal balls.

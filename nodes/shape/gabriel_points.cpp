@@ -1,6 +1,5 @@
 #include "shape/gabriel_points.hpp"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Gmpq.h>
 #include <CGAL/Simple_cartesian.h>
 
@@ -10,10 +9,11 @@
 #include <cstdint>
 #include <utility>
 
+#include "shape/ball_predicates.hpp"
+
 namespace ballflow::geometry {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Exact = CGAL::Simple_cartesian<CGAL::Gmpq>;
 using Edge = std::array<std::int32_t, 2>;
 using Facet = std::array<std::int32_t, 3>;
@@ -35,12 +35,11 @@ class Search {
  public:
   Search(std::span<const Vec3> centers, std::span<const double> weights, const RegularCells& cells,
          Monitor& monitor)
-      : centers_(centers), weights_(weights), mesh_(cells), monitor_(monitor) {
-    balls_.reserve(centers.size());
-    for (std::size_t i = 0; i < centers.size(); ++i) {
-      balls_.emplace_back(Kernel::Point_3(centers[i].x, centers[i].y, centers[i].z), weights[i]);
-    }
-  }
+      : centers_(centers),
+        weights_(weights),
+        mesh_(cells),
+        monitor_(monitor),
+        predicates_(centers, weights) {}
 
   std::vector<Vec3> run() {
     std::vector<Facet> facets;
@@ -55,26 +54,10 @@ class Search {
   }
 
  private:
-  const Kernel::Weighted_point_3& ball(std::int32_t i) const { return balls_[at(i)]; }
-
   /// The smallest orthogonal sphere has a positive squared radius: its centre is in none of the balls.
-  bool apart(const Cell& s) const {
-    return compare_(ball(s[0]), ball(s[1]), ball(s[2]), ball(s[3]), 0.0) == CGAL::LARGER;
-  }
-  bool apart(const Facet& s) const {
-    return compare_(ball(s[0]), ball(s[1]), ball(s[2]), 0.0) == CGAL::LARGER;
-  }
-  bool apart(const Edge& s) const { return compare_(ball(s[0]), ball(s[1]), 0.0) == CGAL::LARGER; }
-
-  /// Ball `other` has strictly negative power to the smallest orthogonal sphere.
-  bool attaches(const Facet& s, std::int32_t other) const {
-    return side_(ball(s[0]), ball(s[1]), ball(s[2]), ball(other)) == CGAL::ON_BOUNDED_SIDE;
-  }
-  bool attaches(const Edge& s, std::int32_t other) const {
-    return side_(ball(s[0]), ball(s[1]), ball(other)) == CGAL::ON_BOUNDED_SIDE;
-  }
-  bool attaches(const std::array<std::int32_t, 1>& s, std::int32_t other) const {
-    return side_(ball(s[0]), ball(other)) == CGAL::ON_BOUNDED_SIDE;
+  template <class S>
+  bool apart(const S& simplex) const {
+    return !predicates_.meets(simplex);
   }
 
   /// The centre of the smallest orthogonal sphere lies in the simplex. It lies beyond a side exactly when the
@@ -84,7 +67,11 @@ class Search {
   template <std::size_t N>
   bool holds_its_center(const std::array<std::int32_t, N>& s) const {
     for (std::size_t k = 0; k < N; ++k) {
-      if (attaches(without(s, k), s[k])) return false;
+      if constexpr (N == 2) {
+        if (predicates_.attaches(s[1 - k], s[k])) return false;
+      } else if (predicates_.attaches(without(s, k), s[k])) {
+        return false;
+      }
     }
     return true;
   }
@@ -145,7 +132,7 @@ class Search {
             std::find(around.begin(), around.end(), static_cast<std::int32_t>(c)) - around.begin();
         const std::int32_t opposite[] = {cell[i], mesh_.cells[n][static_cast<std::size_t>(back)]};
         if (std::none_of(std::begin(opposite), std::end(opposite), [&](std::int32_t other) {
-              return other != RegularCells::infinite && attaches(facet, other);
+              return other != RegularCells::infinite && predicates_.attaches(facet, other);
             })) {
           add(facet);
         }
@@ -179,7 +166,7 @@ class Search {
       const Edge edge = sides[first].edge;
       const bool candidate = apart(edge) && holds_its_center(edge);
       for (; last < sides.size() && sides[last].edge == edge; ++last) {
-        attached = attached || (candidate && attaches(edge, sides[last].opposite));
+        attached = attached || (candidate && predicates_.attaches(edge, sides[last].opposite));
       }
       if (candidate && !attached) add(edge);
       first = last;
@@ -197,9 +184,7 @@ class Search {
   std::span<const double> weights_;
   const RegularCells& mesh_;
   Monitor& monitor_;
-  std::vector<Kernel::Weighted_point_3> balls_;
-  Kernel::Compare_weighted_squared_radius_3 compare_ = Kernel().compare_weighted_squared_radius_3_object();
-  Kernel::Power_side_of_bounded_power_sphere_3 side_ = Kernel().power_side_of_bounded_power_sphere_3_object();
+  BallPredicates predicates_;
   std::vector<Vec3> points_;
 };
 
