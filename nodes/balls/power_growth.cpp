@@ -7,11 +7,13 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <utility>
 
 #include "shape/alpha_classes.hpp"
 #include "shape/gabriel_points.hpp"
+#include "shape/inclusion_homology.hpp"
 #include "shape/regular_cells.hpp"
 #include "types/nearest_tree.hpp"
 
@@ -61,14 +63,17 @@ class Growing {
  private:
   void prepare(const PowerGrowthOptions& options) {
     PartMonitor triangulating(monitor_, 0, 0.3), classifying(monitor_, 0.3, 0.45);
-    weights_ = ball_weights(balls_, options.tolerance);
-    cells_ = regular_cells(balls_.centers, weights_, triangulating);
-    const SimplicialComplex start = alpha_classes(cells_, balls_.centers, weights_, classifying);
-    result_.betti_before = result_.betti_after = start.betti;
-    for (std::size_t i = 0; i < balls_.size(); ++i) {
-      // Without delta this is the radius itself: the root of a rounded square rounds back.
-      first_.push_back(options.tolerance == AlphaTolerance::none ? balls_.radii[i] : std::sqrt(weights_[i]));
+    first_ = {balls_.radii.begin(), balls_.radii.end()};
+    if (options.tolerance == AlphaTolerance::polar) {
+      first_ = ball_weights(balls_, options.tolerance);
+      for (double& weight : first_) weight = std::sqrt(weight);
     }
+    start_.centers = balls_.centers;
+    start_.radii = first_;
+    weights_ = ball_weights(start_, AlphaTolerance::none);
+    cells_ = regular_cells(start_.centers, weights_, triangulating);
+    complex_ = alpha_classes(cells_, start_.centers, weights_, classifying);
+    result_.betti_before = result_.betti_after = complex_.betti;
   }
 
   void find_limits() {
@@ -133,12 +138,23 @@ class Growing {
                      ? last_[i]
                      : std::max(first_[i], std::min(last_[i], std::sqrt(weights_[i] + added_[i])));
     }
-    Balls grown;
-    grown.centers = balls_.centers;
-    grown.radii = radii;
-    const auto betti = alpha_shape(grown, {AlphaTolerance::none}, part).betti;
+    // The balls at the start lie in the grown ones: all of them together have the union of these.
+    std::vector<Vec3> centers(start_.centers.begin(), start_.centers.end());
+    centers.insert(centers.end(), start_.centers.begin(), start_.centers.end());
+    std::vector<double> all = radii;
+    all.insert(all.end(), first_.begin(), first_.end());
+    Balls both;
+    both.centers = std::move(centers);
+    both.radii = std::move(all);
+    SimplicialComplex grown = alpha_shape(both, {AlphaTolerance::none}, part);
+    const auto betti = grown.betti;
     ++result_.unions;
     if (betti != result_.betti_before) return false;
+    std::vector<std::int32_t> ids(start_.size());
+    std::iota(ids.begin(), ids.end(), static_cast<std::int32_t>(ids.size()));
+    const UnionOfBalls whole(both, std::move(grown), monitor_);
+    if (!Inclusion(whole, ids, UnionOfBalls(start_, complex_, monitor_)).homology().isomorphism())
+      return false;
     result_.betti_after = betti;
     result_.radii = std::move(radii);
     return true;
@@ -160,7 +176,9 @@ class Growing {
   const Balls& balls_;
   std::span<const double> wished_;
   Monitor& monitor_;
-  Array<double> weights_;      // at the start
+  Balls start_;                // with the tolerance
+  SimplicialComplex complex_;  // of their union
+  Array<double> weights_;      // of the balls at the start
   std::vector<double> first_;  // radii at the start
   std::vector<double> last_;   // radii at which balls cease by themselves
   RegularCells cells_;

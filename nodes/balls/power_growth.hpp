@@ -33,11 +33,10 @@ struct PowerGrowth {
 /// touches g ceases".
 ///
 /// The thesis claims that balls that have ceased cannot cause new intersections; that is wrong. So the
-/// Betti numbers of the grown union are compared with those before, exactly. Where they differ, balls that
-/// cease take their neighbours in the power diagram along, whose weights then grow by no more: those within
-/// 1, 2, 3, 4, 6, 8, 16, 64 steps, in the end all balls. Growth of all weights by one amount below the first
-/// critical Gabriel point is proved to keep the topology. Equal Betti numbers do not exclude that one tunnel
-/// closed while another opened.
+/// inclusion of the union at the start in the grown one has to be an isomorphism in homology over Z/2, which
+/// is decided exactly. Where it is none, balls that cease take their neighbours in the power diagram along,
+/// whose weights then grow by no more: those within 1, 2, 3, 4, 6, 8, 16, 64 steps, in the end all balls.
+/// Growth of all weights by one amount below the first critical Gabriel point is proved to keep the topology.
 ///
 /// No radius shrinks. With tolerance `polar` every radius becomes at least sqrt(r^2 + delta).
 /// Throws InputError as alpha_shape does. Preconditions: wished radii are finite and as many as balls.
