@@ -47,12 +47,7 @@ Pipeline prune(const std::string& file, double epsilon) {
   const LabelledPoles labelled = label_poles(voronoi_poles(model.points, {}, no_monitor()), model.mesh, {});
   EnlargeOptions grow;
   grow.epsilon = epsilon;
-  Pipeline p{model.mesh,
-             labelled.inner,
-             enlarge(labelled.inner, bounding_box(model.points.points.span()), grow),
-             {},
-             {},
-             {}};
+  Pipeline p{model.mesh, labelled.inner, enlarge(labelled.inner, model.points, {}, grow).balls, {}, {}, {}};
   const CoverMatrix matrix = cover_matrix(p.enlarged, model.points);
   p.all = matrix.balls;
   GreedyOptions until_covered;
