@@ -12,8 +12,8 @@ namespace ballflow::geometry {
 
 /// Predicates on the orthogonal spheres of up to four balls |x - centers[i]|^2 <= weights[i], given by their
 /// indices. The smallest orthogonal sphere (c, R^2) of a set of balls is defined in alpha_shape.hpp. Every
-/// answer is exact for the doubles given: most are found in double arithmetic with a bound of its error, the
-/// others by CGAL's predicates.
+/// answer is exact for the doubles given: most are found in double arithmetic with a bound of its error, most
+/// of the others with twice as many bits, what is zero by CGAL's predicates.
 ///
 /// Where three balls or four are asked for, their centres are not collinear or coplanar; two centres differ.
 class BallPredicates {

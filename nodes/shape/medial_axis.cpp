@@ -296,6 +296,7 @@ void Axis::place_cells() {
     }
     std::array<Vec3, 4> corners;
     for (std::size_t k = 0; k < 4; ++k) corners[k] = sites_.points[at(cell.corners[k])];
+    std::sort(corners.begin(), corners.end(), before);
     if (!circumcenter<double>(corners, positions_[i]))
       circumcenter<CGAL::Exact_rational>(corners, positions_[i]);
     const Vec3 x = positions_[i];
@@ -575,7 +576,9 @@ MedialAxis Axis::finish() {
     } else {
       const std::size_t cell = name - complex_.centers.size();
       vertices.push_back(positions_[cell]);
-      radii.push_back(distance(positions_[cell], sites_.points[at(cells_[cell].corners[0])]));
+      Vec3 site = sites_.points[at(cells_[cell].corners[0])];
+      for (const std::int32_t w : cells_[cell].corners) site = std::min(site, sites_.points[at(w)], before);
+      radii.push_back(distance(positions_[cell], site));
     }
   }
   for (Piece& piece : pieces_) {

@@ -25,6 +25,8 @@ struct MedialAxisOptions {
 /// - Vertices are ball centres (radius: that of the ball) and Voronoi vertices of W (radius: the distance
 ///   to W). Voronoi vertices so close to each other that rounding alone may part them are one. Vertices,
 ///   edges and polygons are sorted by the balls that define them; the direction of a polygon is its sheet's.
+/// - Balls in another order, mirrored at a coordinate plane or scaled by a power of two give exactly the same
+///   axis, mirrored or scaled, but for the numbering and for places where sites coincide or are cospherical.
 /// - Every polygon is plane and convex up to rounding; where one point of W belongs to several triangles of
 ///   the boundary of R (balls on a grid) it may be only plane.
 /// - Its kind is wall where a side of it is an edge of the boundary of R, which then hangs on that side.

@@ -17,7 +17,7 @@ struct MedialAxis {
   MedialAxisOptions options;
 
   static void declare(NodeDecl<MedialAxis>& d) {
-    d.id("MedialAxis", 2).summary("The medial axis of a union of balls as a polygon complex.");
+    d.id("MedialAxis", 3).summary("The medial axis of a union of balls as a polygon complex.");
     d.doc(
         "Simplices of the alpha-shape that belong to no tetrahedron, and inside its tetrahedra the Voronoi "
         "diagram of the vertices of the union's boundary. The axis is homotopy equivalent to the union; its "

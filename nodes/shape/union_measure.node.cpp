@@ -13,7 +13,7 @@ struct UnionMeasure {
   Out<geometry::MassProperties> measure;
 
   static void declare(NodeDecl<UnionMeasure>& d) {
-    d.id("UnionMeasure", 1).summary("Volume, area, centre of mass and inertia tensor of a union of balls.");
+    d.id("UnionMeasure", 2).summary("Volume, area, centre of mass and inertia tensor of a union of balls.");
     d.doc(
         "By formulas on the patches, arcs and corners of the boundary, which the alpha-shape names: nothing "
         "is "

@@ -64,7 +64,13 @@ bool triple_points(const std::array<Vec3, 3>& c, const std::array<double, 3>& w,
 }
 
 /// The vertex of triangle ijk on the side where orientation(i, j, k, .) is `side`.
-Vec3 vertex_of(const SimplicialComplex& complex, const std::array<std::int32_t, 3>& triangle, int side) {
+Vec3 vertex_of(const SimplicialComplex& complex, std::array<std::int32_t, 3> triangle, int side) {
+  for (const std::size_t k : {0, 1, 0}) {
+    const auto center = [&](std::size_t i) { return complex.centers[static_cast<std::size_t>(triangle[i])]; };
+    if (!before(center(k + 1), center(k))) continue;
+    std::swap(triangle[k], triangle[k + 1]);
+    side = -side;
+  }
   std::array<Vec3, 3> centers;
   std::array<double, 3> weights{};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -191,15 +197,17 @@ UnionVertices union_vertices(const SimplicialComplex& complex, double merge_dist
   for (std::size_t i = 0; i < members.size();) {
     const std::int32_t group = members[i].first;
     balls.clear();
+    Vec3 point = points[static_cast<std::size_t>(group)];  // the least, whatever the numbers of the balls
     for (; i < members.size() && members[i].first == group; ++i) {
       const ExposedSide& v = named[static_cast<std::size_t>(members[i].second)];
+      point = std::min(point, points[static_cast<std::size_t>(members[i].second)], before);
       const auto& triangle = complex.triangles[static_cast<std::size_t>(v.triangle)];
       balls.insert(balls.end(), triangle.begin(), triangle.end());
       if (v.regular) out.faces.push_back({v.triangle, v.side});
     }
     std::sort(balls.begin(), balls.end());
     balls.erase(std::unique(balls.begin(), balls.end()), balls.end());
-    out.points.push_back(points[static_cast<std::size_t>(group)]);
+    out.points.push_back(point);
     out.balls.insert(out.balls.end(), balls.begin(), balls.end());
     out.ball_offsets.push_back(static_cast<std::int64_t>(out.balls.size()));
     out.face_offsets.push_back(static_cast<std::int64_t>(out.faces.size()));

@@ -1,6 +1,7 @@
 // The vertices of the boundary of a union of balls, read off its dual complex.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -57,6 +58,14 @@ struct ExposedSide {
 
 /// All names, by triangle, side -1 first. Same preconditions as union_vertices.
 std::vector<ExposedSide> exposed_sides(const SimplicialComplex& complex, Monitor& monitor = no_monitor());
+
+/// An order of points that keeps the order of their mirror images in coordinate planes, unless they are
+/// images of each other. What is computed from points in this order is rounded alike however they are
+/// numbered, and its mirror image is computed from mirrored input.
+inline bool before(Vec3 a, Vec3 b) {
+  const Vec3 u{std::abs(a.x), std::abs(a.y), std::abs(a.z)}, v{std::abs(b.x), std::abs(b.y), std::abs(b.z)};
+  return u != v ? u < v : a < b;
+}
 
 /// The point on the spheres of the triangle's balls that lies on that side of it.
 Vec3 boundary_vertex(const SimplicialComplex& complex, const ExposedSide& side);

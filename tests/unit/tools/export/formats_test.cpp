@@ -176,6 +176,8 @@ TEST(ma, holds_a_medial_axis_that_comes_back_with_its_topology) {
   EXPECT_EQ(geometry::axis_topology(back).euler_characteristic,
             geometry::axis_topology(axis).euler_characteristic);
   EXPECT_EQ(geometry::axis_topology(back).components, geometry::axis_topology(axis).components);
+  EXPECT_EQ(back.sheet_orientable.size(), axis.sheet_orientable.size());
+  EXPECT_EQ(geometry::broken_invariant(back), "");
 }
 
 TEST(ma, cuts_polygons_without_changing_the_topology) {
