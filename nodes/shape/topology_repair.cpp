@@ -474,6 +474,8 @@ class Repair {
     const auto enough = [&](const Ids& some) {
       ++attempts;
       ++check_.inclusions;
+      monitor_.note(std::to_string(returned_.size()) + " balls returned, trying " +
+                    std::to_string(some.size()));
       return whole_.isomorphic_to(merged(kept_, some));
     };
     for (std::size_t block = (returned_.size() + 1) / 2; block > 0;
