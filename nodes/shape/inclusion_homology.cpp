@@ -97,9 +97,11 @@ Inclusion::Inclusion(const UnionOfBalls& whole, std::span<const std::int32_t> id
   }
   homology_.rank[1] = static_cast<std::int64_t>(binary_rank(loop_image_));
 
-  void_image_ = {Voids::outer};
+  void_image_ = {Voids::Place()};
   if (homology_.part[2] > 0 || homology_.whole[2] > 0) void_image_ = whole.voids().inside(part_.voids());
-  homology_.rank[2] = distinct(void_image_) - 1;
+  std::vector<std::int32_t> voids;
+  for (const Voids::Place& place : void_image_) voids.push_back(place.number);
+  homology_.rank[2] = distinct(voids) - 1;
 }
 
 std::vector<std::int32_t> Inclusion::image_of(const std::vector<std::int32_t>& loop) const {

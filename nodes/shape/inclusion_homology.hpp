@@ -86,8 +86,8 @@ class Inclusion {
   const std::vector<std::int32_t>& component_image() const { return component_image_; }
   /// Per loop of part().loops(): its class in H_1(U+), as cocycles of whole.loops() that are 1 on it.
   const std::vector<std::vector<std::int32_t>>& loop_image() const { return loop_image_; }
-  /// Per void of U+: the void of U* that contains it. Only the outer one when neither has a cavity.
-  const std::vector<std::int32_t>& void_image() const { return void_image_; }
+  /// Per void of U+: where it lies in the voids of U*. Only the outer one when neither has a cavity.
+  const std::vector<Voids::Place>& void_image() const { return void_image_; }
 
  private:
   std::vector<std::int32_t> image_of(const std::vector<std::int32_t>& loop) const;
@@ -97,7 +97,7 @@ class Inclusion {
   UnionOfBalls part_;
   std::vector<std::int32_t> component_image_;
   std::vector<std::vector<std::int32_t>> loop_image_;
-  std::vector<std::int32_t> void_image_;
+  std::vector<Voids::Place> void_image_;
   InclusionHomology homology_;
 };
 

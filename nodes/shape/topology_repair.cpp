@@ -340,32 +340,39 @@ class Diagnosis {
     const InclusionHomology& h = inclusion_.homology();
     if (h.rank[2] == h.part[2] && h.rank[2] == h.whole[2]) return {};
     const Voids& voids = inclusion_.part().voids();
-    std::vector<std::int32_t> held(at(voids.count()));
-    for (const std::int32_t v : inclusion_.void_image()) ++held[at(v)];
+    std::vector<std::vector<Voids::Place>> held(at(voids.count()));
+    for (const Voids::Place& place : inclusion_.void_image()) held[at(place.number)].push_back(place);
     std::vector<Ids> result;
     for (std::int32_t v = 0; v < voids.count(); ++v) {
-      if (held[at(v)] == 1) continue;
-      // Corners of the void that U+ covers, deepest first: all of it is covered, or a wall through it.
-      std::vector<std::pair<double, std::int32_t>> covered;
-      for (const Voids::Cell& cell : voids.cells_of(v)) {
-        monitor_.step(0.5);
-        const PowerVertex corner = power_vertex(inclusion_.part().complex(), cell);
-        if (!is_finite(corner.point)) continue;
-        const std::int32_t ball =
-            whole_.walk().cell_of(corner.point, whole_.vertex_at(inclusion_.id(cell[0])));
-        if (!kept_[at(ball)] && !whole_.walk().outside(corner.point, ball))
-          covered.emplace_back(-corner.power, ball);
+      const std::vector<Voids::Place>& places = held[at(v)];
+      if (places.empty()) result.push_back(covered_corners(voids.cells_of(v)));
+      // Whatever separates two voids of U+ crosses the way between them.
+      for (std::size_t i = 1; i < places.size(); ++i) {
+        result.push_back(covered_corners(voids.between(places[i], places[0])));
       }
-      std::sort(covered.begin(), covered.end());
-      Ids seeds;
-      for (const auto& [depth, ball] : covered) seeds.push_back(ball);
-      // Where rounding hides every corner: from the balls around the void.
-      for (const Voids::Cell& cell : voids.cells_of(v)) {
-        for (const std::int32_t i : cell) seeds.push_back(whole_.vertex_at(inclusion_.id(i)));
-      }
-      result.push_back(std::move(seeds));
     }
     return result;
+  }
+
+  /// Balls of U+ that cover corners of U* in some of its cells, deepest first, then those around the cells.
+  Ids covered_corners(const std::vector<Voids::Cell>& cells) const {
+    std::vector<std::pair<double, std::int32_t>> covered;
+    Ids seeds;
+    for (const Voids::Cell& cell : cells) {
+      monitor_.step(0.5);
+      const PowerVertex corner = power_vertex(inclusion_.part().complex(), cell);
+      if (!is_finite(corner.point)) continue;
+      const std::int32_t ball = whole_.walk().cell_of(corner.point, whole_.vertex_at(inclusion_.id(cell[0])));
+      if (!kept_[at(ball)] && !whole_.walk().outside(corner.point, ball)) {
+        covered.emplace_back(-corner.power, ball);
+      }
+    }
+    std::sort(covered.begin(), covered.end());
+    for (const auto& [depth, ball] : covered) seeds.push_back(ball);
+    for (const Voids::Cell& cell : cells) {
+      for (const std::int32_t i : cell) seeds.push_back(whole_.vertex_at(inclusion_.id(i)));
+    }
+    return seeds;
   }
 
   /// The first `count` balls that are not kept, breadth first through K+ from the seeds.
@@ -445,7 +452,7 @@ class Repair {
       if (more.empty()) {
         more = merged(diagnosis.for_lost_loops(), diagnosis.for_filled(effort));
         const std::int64_t now = defects(inclusion.homology());
-        if (last >= 0 && now >= last) effort *= 2;
+        if (last >= 0 && 2 * now > last) effort *= 2;
         last = now;
       }
       const std::size_t before = returned_.size();
@@ -467,6 +474,8 @@ class Repair {
     const auto enough = [&](const Ids& some) {
       ++attempts;
       ++check_.inclusions;
+      monitor_.note(std::to_string(returned_.size()) + " balls returned, trying " +
+                    std::to_string(some.size()));
       return whole_.isomorphic_to(merged(kept_, some));
     };
     for (std::size_t block = (returned_.size() + 1) / 2; block > 0;

@@ -65,11 +65,7 @@ Voids::Voids(const SimplicialComplex& complex, const RegularCells& cells, Monito
       look(128);
       for (std::size_t k = 0; k < 4; ++k) {
         const std::size_t next = at(cells.neighbors[c][k]);
-        if (in_complex[next] || label_[next] >= 0) continue;
-        const Cell& cell = cells.cells[c];
-        std::array<std::int32_t, 3> facet{cell[(k + 1) & 3], cell[(k + 2) & 3], cell[(k + 3) & 3]};
-        std::sort(facet.begin(), facet.end());
-        if (facet[0] >= 0 && has(complex.triangles, facet)) continue;
+        if (in_complex[next] || label_[next] >= 0 || !open(c, k)) continue;
         label_[next] = label;
         queue.push_back(next);
       }
@@ -104,17 +100,58 @@ Voids::Voids(const SimplicialComplex& complex, const RegularCells& cells, Monito
   }
 }
 
-std::vector<std::int32_t> Voids::inside(const Voids& other) const {
-  std::vector<std::int32_t> result{outer};
+bool Voids::open(std::size_t c, std::size_t k) const {
+  const Cell& cell = cells_.cells[c];
+  std::array<std::int32_t, 3> facet{cell[(k + 1) & 3], cell[(k + 2) & 3], cell[(k + 3) & 3]};
+  std::sort(facet.begin(), facet.end());
+  return facet[0] < 0 || !std::binary_search(complex_.triangles.begin(), complex_.triangles.end(), facet);
+}
+
+std::vector<Voids::Place> Voids::inside(const Voids& other) const {
+  std::vector<Place> result{{outer, Place::outside}};
   for (std::int32_t v = 1; v < count(); ++v) result.push_back(located(cells_of(v).front(), other));
   return result;
+}
+
+std::vector<Voids::Cell> Voids::between(const Place& a, const Place& b) const {
+  if (a.cell == Place::outside) return b.cell == Place::outside ? std::vector<Cell>() : between(b, a);
+  // Layer by layer from a; each layer in the order of its corners, since that of cells means nothing.
+  std::vector<std::int32_t> before(cells_.size(), -1);
+  std::vector<std::int32_t> layer{a.cell}, next;
+  before[at(a.cell)] = a.cell;
+  const auto arrived = [&](std::int32_t c) {
+    return b.cell == Place::outside ? !finite(cells_.cells[at(c)]) : c == b.cell;
+  };
+  while (!layer.empty()) {
+    std::sort(layer.begin(), layer.end(), [this](std::int32_t c, std::int32_t d) {
+      return sorted(cells_.cells[at(c)]) < sorted(cells_.cells[at(d)]);
+    });
+    next.clear();
+    for (const std::int32_t c : layer) {
+      if (arrived(c)) {
+        std::vector<Cell> way;
+        for (std::int32_t step = c;; step = before[at(step)]) {
+          if (finite(cells_.cells[at(step)])) way.push_back(sorted(cells_.cells[at(step)]));
+          if (step == a.cell) return way;
+        }
+      }
+      for (std::size_t k = 0; k < 4; ++k) {
+        const std::int32_t n = cells_.neighbors[at(c)][k];
+        if (before[at(n)] >= 0 || label_[at(n)] < 0 || !open(at(c), k)) continue;
+        before[at(n)] = c;
+        next.push_back(n);
+      }
+    }
+    layer.swap(next);
+  }
+  throw std::logic_error("two places of one void are not connected");
 }
 
 /// A vertex of the power diagram of this union lies outside of it, in the void of its cell, hence outside of
 /// `other`, in the void of the cell of the triangulation of `other` that it lies in: the dual complex of
 /// `other` lies in the union `other`.
-std::int32_t Voids::located(const Cell& orthogonal_to, const Voids& other) const {
-  if (other.label_.empty()) return outer;
+Voids::Place Voids::located(const Cell& orthogonal_to, const Voids& other) const {
+  if (other.label_.empty()) return {};
   const Point point = equal_power(complex_, orthogonal_to);
   const auto corner = [&](std::int32_t v) { return exact(other.complex_.centers[at(v)]); };
   // Walk through facets that separate the cell from the point; regular triangulations have no circles.
@@ -122,7 +159,7 @@ std::int32_t Voids::located(const Cell& orthogonal_to, const Voids& other) const
   while (!finite(other.cells_.cells[c])) ++c;
   for (;;) {
     const Cell& cell = other.cells_.cells[c];
-    if (!finite(cell)) return outer;
+    if (!finite(cell)) return {};
     const Point p[4] = {corner(cell[0]), corner(cell[1]), corner(cell[2]), corner(cell[3])};
     std::size_t k = 0;
     for (; k < 4; ++k) {
@@ -135,7 +172,7 @@ std::int32_t Voids::located(const Cell& orthogonal_to, const Voids& other) const
   }
   if (other.label_[c] < 0)
     throw std::logic_error("a point outside of a union of balls lies in its dual complex");
-  return other.label_[c];
+  return {other.label_[c], static_cast<std::int32_t>(c)};
 }
 
 PowerVertex power_vertex(const SimplicialComplex& complex, const Voids::Cell& cell) {

@@ -27,12 +27,21 @@ class Voids {
   /// Finite cells of a void as ascending balls, in lexicographic order. Cells of the outer one as well.
   const std::vector<Cell>& cells_of(std::int32_t v) const { return cells_of_[static_cast<std::size_t>(v)]; }
 
-  /// Voids of `other`, a union that lies in this one, in which the vertices of this one's power diagram lie:
-  /// entry v is the void of `other` that contains void v.
-  std::vector<std::int32_t> inside(const Voids& other) const;
+  /// Where something lies: in a void, and there in a cell of the triangulation.
+  struct Place {
+    static constexpr std::int32_t outside = -1;  // of all finite cells
+    std::int32_t number = outer;
+    std::int32_t cell = outside;
+  };
+  /// Entry v is the place in `other`, a union that lies in this one, of a point of void v.
+  std::vector<Place> inside(const Voids& other) const;
+
+  /// Cells on a shortest way between two places in one void, as `cells_of` has them.
+  std::vector<Cell> between(const Place& a, const Place& b) const;
 
  private:
-  std::int32_t located(const Cell& orthogonal_to, const Voids& other) const;
+  Place located(const Cell& orthogonal_to, const Voids& other) const;
+  bool open(std::size_t cell, std::size_t k) const;  // the facet opposite corner k is not in K
 
   const SimplicialComplex& complex_;
   const RegularCells& cells_;

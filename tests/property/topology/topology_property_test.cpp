@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <numeric>
 #include <ostream>
@@ -157,6 +158,27 @@ INSTANTIATE_TEST_SUITE_P(Files, EveryModel,
                                          Model{"rocker_arm.obj.gz", 1, true},
                                          Model{"cheese.off.gz", 133, false}),
                          name_of);
+
+/// Scans, for tools/nightly: BALLFLOW_TEST_LARGE=1.
+TEST(LargeModels, are_repaired_after_heavy_and_light_pruning) {
+  if (std::getenv("BALLFLOW_TEST_LARGE") == nullptr) GTEST_SKIP() << "BALLFLOW_TEST_LARGE is not set";
+  for (const char* name :
+       {"stanford_bunny.obj.gz", "stanford_dragon_50k.obj.gz", "stanford_dragon_res2.ply.gz"}) {
+    const std::string file = test::data_file("models/" + std::string(name));
+    if (file.empty()) GTEST_SKIP() << "the folder of test models is absent";
+    for (const double epsilon : {0.05, 0.3}) {
+      SCOPED_TRACE(std::string(name) + ", " + std::to_string(epsilon));
+      const Pipeline p = prune(file, epsilon);
+      const TopologyRepair repair = repair_topology(p.all, p.cover, {}, no_monitor());
+      EXPECT_EQ(repair.check.everything, 0);
+      const Ids ids = merged(p.kept, repair.returned);
+      const SimplicialComplex complex = alpha_shape(select(p.all, ids), {}, no_monitor());
+      EXPECT_EQ(gudhi_betti(complex), repair.check.whole);
+      EXPECT_TRUE(UnionOfBalls(p.all, no_monitor()).inclusion_of(ids).isomorphism());
+      std::printf("%s, epsilon %g: %s\n", name, epsilon, describe(repair.check).c_str());
+    }
+  }
+}
 
 }  // namespace
 }  // namespace ballflow::geometry
