@@ -56,9 +56,10 @@ std::vector<Ball> in_insertion_order(const std::vector<Ball>& balls, Monitor& mo
     largest = std::max(largest, ball.radius);
   }
   const SpaceOrder place(box);
+  // 3 bits for the lot, 6 for each coordinate, which leaves about 10 balls of large sums together, 11 for the
+  // size.
   constexpr std::uint64_t lots = 7;
-  constexpr int bits_of_size = 42;  // leaves 6 bits a coordinate: about 10 balls of large sums are close
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> keys(balls.size());
+  std::vector<std::uint64_t> keys(balls.size());
   for (std::size_t i = 0; i < balls.size(); ++i) {
     const Vec3 c = balls[i].center;
     std::uint64_t hash = 0x9e3779b97f4a7c15u;
@@ -67,17 +68,17 @@ std::vector<Ball> in_insertion_order(const std::vector<Ball>& balls, Monitor& mo
       hash ^= hash >> 31;
     }
     const auto lot = lots - std::min(static_cast<std::uint64_t>(std::countr_zero(hash)) / 3, lots);
-    const double smallness = largest > 0 ? (1 - balls[i].radius / largest) * 0x1p41 : 0;
-    keys[i] = {lot << 60 | place(c) >> bits_of_size << bits_of_size | static_cast<std::uint64_t>(smallness),
-               static_cast<std::uint32_t>(i)};
+    const auto smallness =
+        static_cast<std::uint64_t>(largest > 0 ? (1 - balls[i].radius / largest) * 2047 : 0);
+    keys[i] = lot << 61 | place(c) >> 42 << 43 | smallness << 32 | i;
   }
   Lookout look(monitor);
-  std::sort(keys.begin(), keys.end(), [&look](const auto& a, const auto& b) {
+  std::sort(keys.begin(), keys.end(), [&look](std::uint64_t a, std::uint64_t b) {
     look(1);
     return a < b;
   });
   std::vector<Ball> ordered(balls.size());
-  for (std::size_t i = 0; i < keys.size(); ++i) ordered[i] = balls[keys[i].second];
+  for (std::size_t i = 0; i < keys.size(); ++i) ordered[i] = balls[keys[i] & 0xffffffffu];
   return ordered;
 }
 
