@@ -69,7 +69,6 @@ bool ContributionTest::contributes(const Site& site, std::span<const Site> other
 ContributionTest::Answer ContributionTest::filtered(const Site& site, std::span<const Site> others) {
   const double w = site.weight, radius = std::sqrt(w);
   half_spaces_.clear();
-  nearest_ = {};
   double largest_violation = 0;
   bool center_outside = false, center_inside = true;  // certainly
   for (const Site& other : others) {
@@ -112,7 +111,6 @@ ContributionTest::Answer ContributionTest::filtered(const Site& site, std::span<
     for (const HalfSpace& h : half_spaces_) {
       if (!(dot(h.d, y) < h.b - error * h.margin)) return Answer::unknown;
     }
-    nearest_ = y;
     return Answer::yes;
   }
   // For y in the ball and the cell, sum of m_j (d_j . y) < sum of m_j b_j, and the left side is at least

@@ -6,6 +6,7 @@
 // <= 0, is in its cell.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -16,8 +17,6 @@ namespace ballflow::geometry {
 struct Site {
   Vec3 center;
   double weight = 0;  // squared radius, >= 0
-
-  friend bool operator==(const Site&, const Site&) = default;
 };
 
 /// Decides whether a site contributes among others. Reuse one object for many sites: it keeps its memory.
@@ -25,35 +24,30 @@ struct Site {
 /// In coordinates y = x - c the cell is { y : d_j . y < b_j for all j }, d_j = c_j - c and
 /// b_j = (|d_j|^2 - w_j + w) / 2. It has a point in the closed ball if and only if the point of
 /// { d_j . y <= b_j - t } next to the origin is inside the sphere for every small t > 0: the open cell is met
-/// in its interior or not at all, and a ball that touches it from outside has no point in it. That point is
+/// in its interior or not at all, and a ball that touches it from outside has no point in it. (A ball of
+/// radius 0 contributes when its center is in the cell.) That point is
 /// found by Seidel's incremental algorithm for three variables, first with doubles: it is then checked as a
 /// witness, or its multipliers as a proof that there is none, with bounds on all rounding errors. What is
 /// left open is computed with rational numbers and an infinitesimal t.
 class ContributionTest {
  public:
-  /// - `others` are all other sites, or at least the neighbours of `site` in the regular triangulation of
-  /// all.
-  /// - Coordinates are within +-1e150 and weights at most 1e300, so that nothing overflows.
+  /// `others` are all other sites, or at least the neighbours of `site` in their regular triangulation.
+  /// Coordinates are within +-2e150 and weights at most 4e300, so that nothing overflows.
   bool contributes(const Site& site, std::span<const Site> others);
-
-  enum class Answer { no, yes, unknown };
-  /// What doubles can prove.
-  Answer filtered(const Site& site, std::span<const Site> others);
-  /// After filtered() == yes: the point of the cell next to the center, as a vector from it, up to rounding.
-  Vec3 nearest() const { return nearest_; }
 
   /// How many decisions needed rational numbers.
   std::size_t exact_decisions() const { return exact_; }
 
  private:
+  enum class Answer { no, yes, unknown };
   struct HalfSpace {
     Vec3 d;
     double b = 0, margin = 0;  // margin: far more than the rounding errors of d . y - b for y in the ball
   };
+  Answer filtered(const Site& site, std::span<const Site> others);  // what doubles can prove
   static bool exact(const Site& site, std::span<const Site> others);
 
   std::vector<HalfSpace> half_spaces_;
-  Vec3 nearest_;
   std::size_t exact_ = 0;
 };
 

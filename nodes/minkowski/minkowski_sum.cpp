@@ -36,11 +36,11 @@ void require_usable(const Balls& balls, const char* name) {
   }
 }
 
-// Measured with the inputs of bench_minkowski: the list and its order take 96 bytes a sum, the triangulation
-// 700 bytes a vertex; at least four sums in five are hidden where there are many.
-constexpr double bytes_per_sum = 240;
+// Measured with bench_minkowski: a list of sums and its order take 72 bytes a sum, the triangulation 700
+// bytes a vertex. Of millions of pairs one in 20 is a vertex, of what is left by the filter one in four.
+constexpr double bytes_per_pair = 108, bytes_per_survivor = 248;
 
-void require_memory(std::int64_t sums) {
+void require_memory(std::int64_t sums, double bytes_per_sum) {
   const double bytes = bytes_per_sum * static_cast<double>(sums);
   const double memory =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
@@ -53,16 +53,16 @@ void require_memory(std::int64_t sums) {
 }
 
 std::vector<Ball> all_sums(const Sums& sums, Monitor& monitor) {
-  require_memory(sums.pairs());
+  require_memory(sums.pairs(), bytes_per_pair);
   std::vector<Ball> all;
   all.reserve(static_cast<std::size_t>(sums.pairs()));
   sums.for_each(monitor, 0, 0.05, [&all](const Ball& sum) { all.push_back(sum); });
   return all;
 }
 
-/// The sums that do not lie strictly inside another, and some that do. Where a point has a power <= 0 to a
-/// ball inside another it has a smaller one to the other: a dropped ball does not contribute, nor does it
-/// keep a ball from contributing that the other one, or one around that, would not keep.
+/// All sums but some that lie strictly inside another. At a point of such a ball the power to the one around
+/// it is smaller, so it does not contribute; and nothing else changes: a ball contributes or not whether or
+/// not balls that do not contribute are there, because below 0 the least power is that to a ball that does.
 std::vector<Ball> filtered_sums(const Sums& sums, Monitor& monitor) {
   ContainmentFilter filter(sums.box(), std::clamp(static_cast<double>(sums.pairs()) / 16, 1.0, 0x1p18));
   sums.for_each_bucket(monitor, 0, 0.05, [&filter](const Bucket& one, const Bucket& other) {
@@ -82,7 +82,7 @@ std::vector<Ball> filtered_sums(const Sums& sums, Monitor& monitor) {
     }
     if (left.size() - looked_at >= (std::size_t{1} << 20)) {
       looked_at = left.size();
-      require_memory(static_cast<std::int64_t>(left.size()));
+      require_memory(static_cast<std::int64_t>(left.size()), bytes_per_survivor);
     }
   });
   return left;

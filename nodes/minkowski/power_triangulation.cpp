@@ -56,10 +56,13 @@ std::vector<Ball> in_insertion_order(const std::vector<Ball>& balls, Monitor& mo
     largest = std::max(largest, ball.radius);
   }
   const SpaceOrder place(box);
+  // 3 bits for the lot, 6 for each coordinate, which leaves about 10 balls of large sums together, 11 for the
+  // size.
   constexpr std::uint64_t lots = 7;
-  constexpr int bits_of_size = 42;  // leaves 6 bits a coordinate: about 10 balls of large sums are close
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> keys(balls.size());
+  Lookout look(monitor);
+  std::vector<std::uint64_t> keys(balls.size());
   for (std::size_t i = 0; i < balls.size(); ++i) {
+    look(8);
     const Vec3 c = balls[i].center;
     std::uint64_t hash = 0x9e3779b97f4a7c15u;
     for (const double x : {c.x, c.y, c.z}) {
@@ -67,17 +70,19 @@ std::vector<Ball> in_insertion_order(const std::vector<Ball>& balls, Monitor& mo
       hash ^= hash >> 31;
     }
     const auto lot = lots - std::min(static_cast<std::uint64_t>(std::countr_zero(hash)) / 3, lots);
-    const double smallness = largest > 0 ? (1 - balls[i].radius / largest) * 0x1p41 : 0;
-    keys[i] = {lot << 60 | place(c) >> bits_of_size << bits_of_size | static_cast<std::uint64_t>(smallness),
-               static_cast<std::uint32_t>(i)};
+    const auto smallness =
+        static_cast<std::uint64_t>(largest > 0 ? (1 - balls[i].radius / largest) * 2047 : 0);
+    keys[i] = lot << 61 | place(c) >> 42 << 43 | smallness << 32 | i;
   }
-  Lookout look(monitor);
-  std::sort(keys.begin(), keys.end(), [&look](const auto& a, const auto& b) {
+  std::sort(keys.begin(), keys.end(), [&look](std::uint64_t a, std::uint64_t b) {
     look(1);
     return a < b;
   });
   std::vector<Ball> ordered(balls.size());
-  for (std::size_t i = 0; i < keys.size(); ++i) ordered[i] = balls[keys[i].second];
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    look(8);
+    ordered[i] = balls[keys[i] & 0xffffffffu];
+  }
   return ordered;
 }
 
@@ -87,11 +92,13 @@ struct Tables {
   std::vector<Site> sites;
   std::vector<Cell> cells;
 
-  explicit Tables(const Triangulation& triangulation) {
+  Tables(const Triangulation& triangulation, Monitor& monitor) {
+    Lookout look(monitor);
     balls.reserve(triangulation.number_of_vertices());
     sites.reserve(triangulation.number_of_vertices());
     triangulation.infinite_vertex()->info().id = none;
     for (const auto vertex : triangulation.finite_vertex_handles()) {
+      look(16);
       vertex->info().id = static_cast<std::int32_t>(sites.size());
       sites.push_back(site_of(vertex->point()));
       balls.push_back({sites.back().center, vertex->info().radius});
@@ -99,6 +106,7 @@ struct Tables {
     const auto& all = triangulation.tds().cells();
     cells.reserve(all.size());
     for (auto cell = all.begin(); cell != all.end(); ++cell) {
+      look(16);
       cells.push_back({none, none, none, none});
       for (int i = 0; i <= triangulation.dimension(); ++i) cells.back()[at(i)] = cell->vertex(i)->info().id;
     }
@@ -108,8 +116,10 @@ struct Tables {
 /// The cells around every vertex.
 class Stars {
  public:
-  explicit Stars(const Tables& tables) : begins_(tables.sites.size() + 1) {
+  Stars(const Tables& tables, Monitor& monitor) : begins_(tables.sites.size() + 1) {
+    Lookout look(monitor);
     for (const Cell& cell : tables.cells) {
+      look(8);
       for (const std::int32_t v : cell) begins_[at(v + 1)] += v != none;
     }
     begins_[0] = 0;
@@ -117,6 +127,7 @@ class Stars {
     cells_.resize(begins_.back());
     std::vector<std::size_t> next(begins_.begin(), begins_.end() - 1);
     for (std::size_t c = 0; c < tables.cells.size(); ++c) {
+      look(16);
       for (const std::int32_t v : tables.cells[c]) {
         if (v != none) cells_[next[at(v)]++] = static_cast<std::int32_t>(c);
       }
@@ -227,10 +238,9 @@ void PowerTriangulation::insert_if_contributing(const Ball& ball) {
 }
 
 Contributing PowerTriangulation::contributing(Monitor& monitor) {
-  monitor.step(0);
-  const Tables tables(implementation_->triangulation);
+  const Tables tables(implementation_->triangulation, monitor);
   implementation_->triangulation.clear();
-  const Stars stars(tables);
+  const Stars stars(tables, monitor);
   ContributionTest& test = implementation_->test;
   std::vector<Site>& link = implementation_->link;
   std::vector<std::int32_t> seen_from(tables.sites.size(), none);

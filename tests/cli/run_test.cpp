@@ -118,8 +118,8 @@ TEST_F(CliTest, a_cover_as_small_as_its_bound_is_called_the_fewest_possible) {
 
 TEST_F(CliTest, changing_one_side_of_a_minkowski_sum_leaves_the_other_in_the_cache) {
   const auto sum = [&](const std::string& b) {
-    return ballflow({"run", test::source_file("graphs/minkowski_sum.json"), "--set", "a=shape:torus?n=1000", "--set",
-                     "b=" + b, "--report", folder.file("report.json")});
+    return ballflow({"run", test::source_file("graphs/minkowski_sum.json"), "--set", "a=shape:torus?n=1000",
+                     "--set", "b=" + b, "--report", folder.file("report.json")});
   };
   ASSERT_EQ(sum("shape:sphere?n=500&R=0.2").exit_code, 0);
   ASSERT_EQ(sum("shape:box?n=500&R=0.2").exit_code, 0);

@@ -1,0 +1,58 @@
+#include "minkowski/containment_filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+namespace ballflow::geometry {
+namespace {
+
+Box box_of(const std::vector<Ball>& balls) {
+  Box box;
+  for (const Ball& ball : balls) box.add(ball.center);
+  return box;
+}
+
+ContainmentFilter filter_of(const std::vector<Ball>& balls, double voxels) {
+  ContainmentFilter filter(box_of(balls), voxels);
+  for (const Ball& ball : balls) filter.offer(ball);
+  filter.spread(no_monitor());
+  return filter;
+}
+
+TEST(containment_filter, neither_a_ball_itself_nor_one_that_touches_from_inside_is_contained) {
+  const std::vector<Ball> balls{{{0, 0, 0}, 1}, {{0.5, 0, 0}, 0.5}, {{0.25, 0, 0}, 0.5}};
+  const ContainmentFilter filter = filter_of(balls, 1);
+  EXPECT_FALSE(filter.contains(balls[0]));
+  EXPECT_FALSE(filter.contains(balls[1]));
+  EXPECT_TRUE(filter.contains(balls[2]));
+}
+
+TEST(containment_filter, what_it_says_is_inside_is_inside_and_that_is_most_of_it) {
+  std::mt19937_64 random(1);
+  const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  for (const bool flat : {false, true}) {
+    std::vector<Ball> balls(3000);
+    for (Ball& ball : balls) {
+      ball = {{uniform(), uniform(), flat ? 0 : uniform()}, 0.2 * uniform() * uniform()};
+    }
+    const ContainmentFilter filter = filter_of(balls, 200);
+    int inside = 0, found = 0;
+    for (const Ball& ball : balls) {
+      bool contained = false;
+      for (const Ball& other : balls) {
+        contained = contained || distance(ball.center, other.center) + ball.radius < other.radius;
+      }
+      inside += contained;
+      if (!filter.contains(ball)) continue;
+      EXPECT_TRUE(contained);
+      ++found;
+    }
+    EXPECT_GT(inside, 1000);
+    EXPECT_GT(found, inside / 2);
+  }
+}
+
+}  // namespace
+}  // namespace ballflow::geometry
