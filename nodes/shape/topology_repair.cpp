@@ -62,6 +62,15 @@ std::int64_t defects(const InclusionHomology& h) {
   return sum;
 }
 
+/// What tells places of defects apart from round to round: what kind, and a kept ball there.
+using Place = std::pair<int, std::int32_t>;
+
+/// Where to begin when balls are to be returned.
+struct Seeds {
+  Place place;
+  Ids balls;  // vertices of K+, most promising first
+};
+
 /// What one comparison of U* with U+ says about the balls that are missing. Vertices are those of K+.
 class Diagnosis {
  public:
@@ -134,10 +143,21 @@ class Diagnosis {
 
   /// The `effort` balls around every loop of U* that U+ has filled, every void of U* that U+ has filled, and
   /// every wall between voids that U* lacks, that are nearest to a good guess.
-  Ids for_filled(std::size_t effort) {
+  ///
+  /// One ball for every place, and twice as many for one that was met in the round before; at least `effort`.
+  Ids for_filled(std::map<Place, std::size_t>& efforts, std::size_t effort) {
     Ids result;
-    for (const Ids& seeds : seeds_of_loops()) take_around(seeds, effort, result);
-    for (const Ids& seeds : seeds_of_voids()) take_around(seeds, effort, result);
+    std::vector<Seeds> all = seeds_of_loops();
+    const std::vector<Seeds> voids = seeds_of_voids();
+    all.insert(all.end(), voids.begin(), voids.end());
+    std::map<Place, std::size_t> now;
+    for (const Seeds& seeds : all) {
+      const auto before = efforts.find(seeds.place);
+      std::size_t& count = now[seeds.place];
+      count = std::max({count, effort, before == efforts.end() ? 1 : 2 * before->second});
+      take_around(seeds.balls, count, result);
+    }
+    efforts = std::move(now);
     return result;
   }
 
@@ -224,7 +244,7 @@ class Diagnosis {
 
   /// Short loops of K* that generate what U+ has filled, each as a place to begin at: the ball around its
   /// middle, then the balls that it passes.
-  std::vector<Ids> seeds_of_loops() const {
+  std::vector<Seeds> seeds_of_loops() const {
     const InclusionHomology& h = inclusion_.homology();
     const std::int64_t wanted = h.part[1] - h.rank[1];
     if (wanted == 0) return {};
@@ -280,7 +300,7 @@ class Diagnosis {
       found.emplace_back(all, c);
     }
     Span filled;
-    std::vector<Ids> result;
+    std::vector<Seeds> result;
     for (const auto& [loop, c] : found) {
       if (!filled.add(c)) continue;
       Vec3 sum;
@@ -291,7 +311,8 @@ class Diagnosis {
       Ids seeds;
       if (!whole_.walk().outside(middle, nearest)) seeds.push_back(nearest);
       for (const std::int32_t v : loop) seeds.push_back(whole_.vertex_at(inclusion_.id(v)));
-      result.push_back(std::move(seeds));
+      const std::int32_t first = *std::min_element(loop.begin(), loop.end());
+      result.push_back({{0, inclusion_.id(first)}, std::move(seeds)});
     }
     return result;
   }
@@ -336,19 +357,23 @@ class Diagnosis {
   }
 
   /// Voids of U* that hold no void of U+, or several.
-  std::vector<Ids> seeds_of_voids() const {
+  std::vector<Seeds> seeds_of_voids() const {
     const InclusionHomology& h = inclusion_.homology();
     if (h.rank[2] == h.part[2] && h.rank[2] == h.whole[2]) return {};
     const Voids& voids = inclusion_.part().voids();
     std::vector<std::vector<Voids::Place>> held(at(voids.count()));
     for (const Voids::Place& place : inclusion_.void_image()) held[at(place.number)].push_back(place);
-    std::vector<Ids> result;
+    std::vector<Seeds> result;
+    const auto add = [&](int kind, const std::vector<Voids::Cell>& cells) {
+      const std::int32_t ball = cells.empty() ? 0 : inclusion_.id(cells.back()[0]);
+      result.push_back({{kind, ball}, covered_corners(cells)});
+    };
     for (std::int32_t v = 0; v < voids.count(); ++v) {
       const std::vector<Voids::Place>& places = held[at(v)];
-      if (places.empty()) result.push_back(covered_corners(voids.cells_of(v)));
+      if (places.empty()) add(1, voids.cells_of(v));
       // Whatever separates two voids of U+ crosses the way between them.
       for (std::size_t i = 1; i < places.size(); ++i) {
-        result.push_back(covered_corners(voids.between(places[i], places[0])));
+        add(2, voids.between(places[i], places[0]));
       }
     }
     return result;
@@ -438,6 +463,7 @@ class Repair {
 
   /// Returns more and more balls until nothing differs.
   void grow() {
+    std::map<Place, std::size_t> efforts;
     std::size_t effort = 1;
     std::int64_t last = -1;
     for (;;) {
@@ -450,10 +476,10 @@ class Repair {
       Diagnosis diagnosis(whole_, ids, inclusion, monitor_);
       Ids more = diagnosis.for_components();
       if (more.empty()) {
-        more = merged(diagnosis.for_lost_loops(), diagnosis.for_filled(effort));
         const std::int64_t now = defects(inclusion.homology());
-        if (last >= 0 && 2 * now > last) effort *= 2;
+        if (last >= 0 && now >= last) effort *= 2;
         last = now;
+        more = merged(diagnosis.for_lost_loops(), diagnosis.for_filled(efforts, effort));
       }
       const std::size_t before = returned_.size();
       returned_ = merged(returned_, more);

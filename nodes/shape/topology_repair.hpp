@@ -37,7 +37,7 @@ CoverState with_returned(const CoverState& cover, std::span<const std::int32_t> 
 ///
 /// `localised` looks at what differs. Parts of a component are joined, and lost loops closed, by shortest
 /// paths of balls of U+. Where U* has a loop or a void that U+ has filled, or one void instead of two, balls
-/// around the place are returned, twice as many each time the defects do not halve. Then blocks of returned
+/// around the place are returned, twice as many when the place is met again. Then blocks of returned
 /// balls are taken out again as long as the inclusion stays an isomorphism. In the worst case every ball
 /// comes back, which the check says.
 /// - Radii are taken as they are: use enlarged balls.
