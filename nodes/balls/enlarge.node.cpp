@@ -36,13 +36,12 @@ struct Enlarge {
         "power_diagram epsilon is a wish, and a bound wins; `growth` says for every ball which bound stopped "
         "it. pole_bound keeps inner balls off the outer medial axis, which is necessary for the topology but "
         "not sufficient. power_diagram stops balls at the critical Gabriel points of the union, compares the "
-        "Betti numbers of the grown union with those before, and where they differ stops neighbours of "
-        "stopped "
-        "balls too. Accepts any balls. Refuses percent without a sample, pole_bound without "
+        "grown union with the one before by the map that the inclusion induces in homology over Z/2, and "
+        "where that is no isomorphism stops neighbours of stopped balls too. Accepts any balls. Refuses percent without a sample, pole_bound without "
         "poles, and radii that leave the range of doubles.");
     d.avoid_when("balls must not grow at all: connect them directly.");
     d.cites("kornberger2010", "3.5, Lemma 3.4, 3.5.2").library("CGAL", geometry::cgal_version());
-    d.memory(1 << 20, 10);
+    d.memory(1 << 20, 64);  // mode power_diagram: an alpha-shape of twice as many balls
     d.input("balls", &Enlarge::balls).doc("n balls, model units");
     d.input("points", &Enlarge::points)
         .optional()
@@ -61,7 +60,7 @@ struct Enlarge {
           {EnlargeMode::multiplicative, "multiplicative", "radius * factor"},
           {EnlargeMode::pole_bound, "pole_bound", "as additive, but off the outer medial axis (Lemma 3.4)"},
           {EnlargeMode::power_diagram, "power_diagram",
-           "as additive, but so that the union keeps its Betti numbers (3.5.2, verified)"}})
+           "as additive, but so that the union keeps its topology (3.5.2, verified by the inclusion)"}})
         .doc(
             "additive growth gives noise the same significance everywhere, multiplicative growth spares thin "
             "parts");

@@ -193,7 +193,8 @@ test('a node of the graph shows what it did and what it made', async () => {
   assert.match(text, /epsilon\s+0\.1/);
   assert.match(text, /ran/);
   assert.deepEqual(Object.fromEntries(Object.entries(await legendCounts()).map(([key, [count]]) => [key, count])),
-    { 'enlarge.balls/balls': node.outputs.balls.summary.count });
+    { 'enlarge.balls/balls': node.outputs.balls.summary.count,
+      'enlarge.growth/grown balls': node.outputs.balls.summary.count });
   const { seen, right } = await coloursAsExpected(
     await page.evaluate(async () => {
       const { centre, vertices, radii } = await ballflow.arrays('enlarge.balls/balls');
