@@ -37,7 +37,8 @@ struct Enlarge {
         "it. pole_bound keeps inner balls off the outer medial axis, which is necessary for the topology but "
         "not sufficient. power_diagram stops balls at the critical Gabriel points of the union, compares the "
         "grown union with the one before by the map that the inclusion induces in homology over Z/2, and "
-        "where that is no isomorphism stops neighbours of stopped balls too. Accepts any balls. Refuses percent without a sample, pole_bound without "
+        "where that is no isomorphism stops neighbours of stopped balls too. Accepts any balls. Refuses "
+        "percent without a sample, pole_bound without "
         "poles, and radii that leave the range of doubles.");
     d.avoid_when("balls must not grow at all: connect them directly.");
     d.cites("kornberger2010", "3.5, Lemma 3.4, 3.5.2").library("CGAL", geometry::cgal_version());

@@ -195,6 +195,8 @@ test('a node of the graph shows what it did and what it made', async () => {
   assert.deepEqual(Object.fromEntries(Object.entries(await legendCounts()).map(([key, [count]]) => [key, count])),
     { 'enlarge.balls/balls': node.outputs.balls.summary.count,
       'enlarge.growth/grown balls': node.outputs.balls.summary.count });
+  await page.click(box('enlarge.growth/grown balls')); // the same balls in other colours
+  await settled();
   const { seen, right } = await coloursAsExpected(
     await page.evaluate(async () => {
       const { centre, vertices, radii } = await ballflow.arrays('enlarge.balls/balls');
