@@ -25,8 +25,8 @@ enum class EnlargeMode {
 struct EnlargeOptions {
   EnlargeMode mode = EnlargeMode::additive;
   // All modes but multiplicative: % of the longest bounding-box edge; absolute: model units. At least 0,
-  // where 0 returns the input; from about 0.1 % on features of a scan begin to disappear, from about 3 % on
-  // most of the shape.
+  // where 0 returns the input (power_diagram: with its tolerance); from about 0.1 % on features of a scan
+  // begin to disappear, from about 3 % on most of the shape.
   double epsilon = 0.3;
   // multiplicative: at least 1, where 1 returns the input.
   double factor = 1.05;

@@ -69,7 +69,8 @@ struct Enlarge {
         .unit("% of the longest bounding-box edge of the sample, or model units (absolute)")
         .at_least(0)
         .doc(
-            "how much radii grow in all modes but multiplicative; 0 returns the input, beyond about 3 % "
+            "how much radii grow in all modes but multiplicative; 0 returns the input (power_diagram: with "
+            "its tolerance added), beyond about 3 % "
             "little of the shape remains");
     d.param("factor", &Enlarge::options, &EnlargeOptions::factor)
         .unit("1")
@@ -91,6 +92,10 @@ struct Enlarge {
   }
   void run(RunContext& context) {
     ContextMonitor monitor(context);
+    if (search && options.mode == geometry::EnlargeMode::multiplicative) {
+      throw geometry::InputError("a search is connected, but mode multiplicative does not use epsilon",
+                                 "search with another mode, such as additive");
+    }
     if (search) options.epsilon = search->value;
     options.pole_bound = pole_bound;
     options.power_diagram = power_diagram;

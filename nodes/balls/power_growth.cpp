@@ -152,9 +152,9 @@ class Growing {
     if (betti != result_.betti_before) return false;
     std::vector<std::int32_t> ids(start_.size());
     std::iota(ids.begin(), ids.end(), static_cast<std::int32_t>(ids.size()));
-    const UnionOfBalls whole(both, std::move(grown), monitor_);
-    if (!Inclusion(whole, ids, UnionOfBalls(start_, complex_, monitor_)).homology().isomorphism())
-      return false;
+    PartMonitor still(monitor_, from + 0.04, from + 0.04);
+    const UnionOfBalls whole(both, std::move(grown), still);
+    if (!Inclusion(whole, ids, UnionOfBalls(start_, complex_, still)).homology().isomorphism()) return false;
     result_.betti_after = betti;
     result_.radii = std::move(radii);
     return true;

@@ -126,7 +126,13 @@ MinkowskiSum minkowski_sum(const Balls& a, const Balls& b, const MinkowskiSumOpt
   if (options.algorithm == MinkowskiAlgorithm::memory) {
     constexpr std::size_t work = 4096;  // about 10 us
     sums.for_each(
-        monitor, 0, 0.9, [&](const Ball& sum) { triangulation.insert_if_contributing(sum); }, work);
+        monitor, 0, 0.9,
+        [&, looked = std::int64_t{0}](const Ball& sum) mutable {
+          triangulation.insert_if_contributing(sum);
+          if (++looked % (1 << 20) == 0)
+            require_memory(static_cast<std::int64_t>(triangulation.vertices()), bytes_per_survivor);
+        },
+        work);
     result.report.survivors = static_cast<std::int64_t>(triangulation.vertices());
   } else {
     const bool all = options.algorithm == MinkowskiAlgorithm::time;

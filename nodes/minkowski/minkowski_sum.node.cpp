@@ -40,6 +40,7 @@ struct MinkowskiSum {
     d.cites("kornberger2010", "5.1 to 5.3 and 5.5")
         .cites("aurenhammer1988", "Lemma 1")
         .cites("seidel1991", "2");
+    d.library("CGAL", geometry::cgal_version());
     d.memory(std::uint64_t{64} << 20, 1500);  // 140 and 210 MB were measured for 4 and 18 million pairs
     d.input("a", &MinkowskiSum::a).doc("balls, model units; few: prune them");
     d.input("b", &MinkowskiSum::b)

@@ -92,10 +92,12 @@ class Spreading {
     queue_.push({evidence_[i].priority(), ranks_[i], static_cast<std::int32_t>(i)});
   }
 
-  /// The cosine of the angle p s q where s is on both spheres.
+  /// The cosine of the angle p s q where s is on both spheres. Rounding must not make anything more certain
+  /// than the seeds, whose certainty is 1.
   double cosine(std::size_t p, std::size_t q) const {
     const double a = poles_.radii[p], b = poles_.radii[q];
-    return (a * a + b * b - squared_distance(poles_.centers[p], poles_.centers[q])) / (2 * a * b);
+    const double c = (a * a + b * b - squared_distance(poles_.centers[p], poles_.centers[q])) / (2 * a * b);
+    return std::clamp(c, -1.0, 1.0);
   }
 
   std::span<const std::int32_t> samples_of(std::size_t p) const {
@@ -109,6 +111,7 @@ class Spreading {
   template <class Visit>
   void for_neighbours(std::size_t p, Visit visit) const {
     for (const std::int32_t s : samples_of(p)) {
+      look_(entries_.of(at(s)).size());  // an outlier inside a shape is a site of very many entries
       for (const std::int32_t q : entries_.of(at(s))) {
         if (at(q) == p) continue;
         const double d = cosine(p, at(q));
@@ -162,6 +165,7 @@ class Spreading {
 
   const PoleSet& poles_;
   Monitor& monitor_;
+  mutable Lookout look_{monitor_};
   Lists entries_;  // of each sample
   std::vector<std::int32_t> ranks_;
   std::vector<Evidence> evidence_;

@@ -21,7 +21,13 @@ LocalFeatureSize local_feature_size(const PointSet& sample, const PoleSet& poles
   }
   std::vector<Vec3> centers;
   std::vector<Box> boxes;
-  const std::vector<std::uint8_t> pole = is_pole(poles);
+  // The two poles of Amenta and Bern: third poles depend on labels, and there are none before LabelPoles.
+  std::vector<std::uint8_t> pole(poles.size());
+  for (const auto& own : poles.sample_poles) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (own[k] >= 0) pole[static_cast<std::size_t>(own[k])] = 1;
+    }
+  }
   for (std::size_t i = 0; i < poles.size(); ++i) {
     if (pole[i] == 0) continue;
     centers.push_back(poles.centers[i]);

@@ -83,7 +83,10 @@ class Shells {
           dot(surface_.vertices[at(t[0])] - origin,
               cross(surface_.vertices[at(t[1])] - origin, surface_.vertices[at(t[2])] - origin));
     }
-    for (const double v : volume) facing_.push_back(v < 0 ? -1 : 1);
+    double whole = 0;
+    for (const double v : volume) whole += v;
+    sign_ = whole < 0 ? -1 : 1;
+    for (const double v : volume) facing_.push_back(sign_ * v < 0 ? -1 : 1);
   }
 
   /// How often every shell winds around a corner of every other one.
@@ -94,7 +97,7 @@ class Shells {
       std::vector<std::pair<std::int32_t, std::int64_t>> crossed;
       crossings.for_each_above(surface_.vertices[at(corner_[i])], [&](std::int32_t f, int sign, bool) {
         look_(64);
-        if (shell_[at(f)] != static_cast<std::int32_t>(i)) crossed.emplace_back(shell_[at(f)], sign);
+        if (shell_[at(f)] != static_cast<std::int32_t>(i)) crossed.emplace_back(shell_[at(f)], sign_ * sign);
       });
       std::sort(crossed.begin(), crossed.end());
       for (const auto& [shell, sign] : crossed) {
@@ -123,6 +126,7 @@ class Shells {
   const TriangleMesh& surface_;
   Lookout look_;
   std::size_t count_ = 0;
+  int sign_ = 1;  // -1 when the surface as a whole is inside out: all shells are turned first
   std::vector<std::int32_t> shell_;   // per triangle
   std::vector<std::int32_t> corner_;  // per shell: one of its vertices
   std::vector<std::int64_t> genus_;

@@ -560,6 +560,10 @@ TopologyRepair repair_topology(const Balls& balls, const CoverState& cover,
                          std::to_string(balls.size()),
                      "connect the balls that the covering matrix returned with the cover");
   }
+  if (cover.remaining() != 0) {
+    throw InputError(std::to_string(cover.remaining()) + " samples are not covered yet",
+                     "repair after a pruning strategy that covers all samples");
+  }
   Ids kept(cover.chosen.begin(), cover.chosen.end());
   std::sort(kept.begin(), kept.end());
   TopologyRepair repair = repair_topology(balls, kept, options, monitor);

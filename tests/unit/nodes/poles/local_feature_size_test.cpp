@@ -45,6 +45,17 @@ TEST(local_feature_size, does_not_ask_for_labels) {
             local_feature_size(torus.points(), labelled.poles).pole_distances);
 }
 
+TEST(local_feature_size, does_not_count_third_poles) {
+  // Voronoi vertices of four samples of a sharp edge; the third pole of sample 0 is the nearest entry to it.
+  PoleSet poles;
+  poles.centers = std::vector<Vec3>{{0, 0, 3}, {0, 0, -2}, {0.5, 0, 0}};
+  poles.radii = std::vector<double>{3, 2, 0.5};
+  poles.sample_poles = std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}};
+  PointSet sample;
+  sample.points = std::vector<Vec3>{{0, 0, 0}};
+  EXPECT_EQ(local_feature_size(sample, poles).pole_distances[0], 2);
+}
+
 TEST(local_feature_size, of_a_torus_bounds_what_the_formula_says) {
   // The medial axis is the core circle and the axis of rotation; lfs <= 1.2802 D^ (Lemma 4.8), and D^ comes
   // close to it as the sample is dense.

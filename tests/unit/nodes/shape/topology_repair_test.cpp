@@ -309,6 +309,9 @@ TEST(topology_repair, adds_to_a_cover_what_it_returns) {
   EXPECT_EQ(after.count(Choice::returned), 3);
   EXPECT_EQ(after.chosen[21], 5);
   EXPECT_THROW(repair_topology(make_balls(circle(23), 0.2), cover, {}, no_monitor()), InputError);
+  CoverState unfinished = cover;
+  unfinished.column_ids = std::vector<std::int32_t>{0};
+  EXPECT_THROW(repair_topology(ring, unfinished, {}, no_monitor()), InputError);
 }
 
 TEST(topology_repair, refuses_ids_that_are_none) {

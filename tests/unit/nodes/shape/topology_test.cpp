@@ -97,6 +97,10 @@ TEST(solid_topology, turns_shells_outwards_that_bound_no_cavity) {
   EXPECT_EQ(solid(Pieces().box({0, 0, 0}, 5, true).torus({30, 0, 0}, 3, 1)).betti, (Betti{2, 1, 0}));
 }
 
+TEST(solid_topology, turns_a_surface_that_is_inside_out_as_a_whole) {
+  EXPECT_EQ(solid(Pieces().box({0, 0, 0}, 5, true).box({0, 0, 0}, 3, false)).betti, (Betti{1, 0, 1}));
+}
+
 TEST(solid_topology, takes_no_notice_of_a_shell_inside_the_solid) {
   EXPECT_EQ(solid(Pieces().box({0, 0, 0}, 9).torus({0, 0, 0}, 3, 1)).betti, (Betti{1, 0, 0}));
 }
