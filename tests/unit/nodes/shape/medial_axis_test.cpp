@@ -193,9 +193,14 @@ TEST(medial_axis, of_a_cube_of_balls_that_meet_in_the_middle_of_its_sides_is_fou
   // Six boundary vertices (four spheres through each): twelve facets, one hanging on each edge of the cube.
   EXPECT_EQ(count(r.axis, AxisKind::wall), 12);
   expect_topology_of_the_union(r, "cube");
+  const Vec3 middle{0.5, 0.5, 0.5};
+  for (const Vec3 v : r.axis.vertices) {
+    const bool corner = std::find(corners.begin(), corners.end(), v) != corners.end();
+    EXPECT_TRUE(corner || distance(v, middle) < 1e-12) << v.x << " " << v.y << " " << v.z;
+  }
   // The six vertices are cospherical: their Delaunay cells are one Voronoi vertex.
   ASSERT_EQ(r.axis.vertices.size(), 9u);
-  EXPECT_LT(distance(r.axis.vertices[8], {0.5, 0.5, 0.5}), 1e-12);
+  EXPECT_LT(distance(r.axis.vertices[8], middle), 1e-12);
   EXPECT_EQ(r.axis.polygons(), 12u);
   EXPECT_EQ(r.axis.sheet_orientable.size(), 12u);
   EXPECT_EQ(r.axis.seams.size(), 8u) << "from every corner to the middle";
