@@ -31,24 +31,38 @@ class WeightingSearch {
  private:
   using Id = std::int32_t;
 
-  struct Row {
-    std::int32_t gain = 0;   // weight of the uncovered columns it covers; only while it is outside the cover
-    std::int32_t moved = 0;  // step in which it was added or dropped last
+  /// The weight of the uncovered columns that a row covers. Weights of uncovered columns grow by one with
+  /// every tick, so that a column changes the gains of its rows only when it is covered or uncovered: the
+  /// gain is the sum of the columns' weights at tick 0 (negative ones are usual) and the tick times their
+  /// number.
+  class Gain {
+   public:
+    /// What a column contributes that has this weight at tick 0.
+    explicit Gain(std::int32_t weight) : bits_((std::int64_t{weight} << 32) + 1) {}
+    Gain() = default;
+    Gain& operator+=(Gain g) { return bits_ += g.bits_, *this; }
+    Gain& operator-=(Gain g) { return bits_ -= g.bits_, *this; }
+    std::int64_t at(std::int64_t tick) const { return (bits_ >> 32) + (bits_ & 0xffffffff) * tick; }
+
+   private:
+    std::int64_t bits_ = 0;  // the sum in the upper half, the number in the lower
   };
   struct Column {
-    std::int32_t times = 0;  // how many rows of the cover cover it
-    Id keepers = 0;          // exclusive or of their slots: the slot itself while there is one
-    std::int32_t weight = 1;
-    Id place = -1;  // in uncovered_
+    std::int32_t times = 0;   // how many rows of the cover cover it
+    Id keepers = 0;           // exclusive or of their slots: the slot itself while there is one
+    std::int32_t weight = 1;  // while it is uncovered: at tick 0
+    Id place = -1;            // in uncovered_
   };
 
   void add(Id row, Lookout& look);
   void drop(Id row, Lookout& look);
   void change_loss(Id slot, std::int32_t by);
-  void find_least(std::size_t block, std::int32_t except);
+  void find_least(std::size_t block, Id except);
   Id least_loss();
   Id best_gain(Id column) const;
   void weigh_uncovered(Lookout& look);
+  /// Begins again with tick 0, so that sums of weights stay small.
+  void restart_ticks(Lookout& look);
   void halve_weights(Lookout& look);
   std::size_t random_below(std::size_t n);
 
@@ -56,9 +70,11 @@ class WeightingSearch {
   std::int64_t bound_;
   std::uint64_t random_;
   std::int32_t step_ = 0;
+  std::int32_t tick_ = 0, last_tick_;
   std::int64_t weight_limit_, weight_sum_ = 0;
   Id last_added_ = -1, last_dropped_ = -1;
-  std::vector<Row> rows_;
+  std::vector<Gain> gains_;          // of each row; valid while it is outside the cover
+  std::vector<std::int32_t> moved_;  // step in which each row was added or dropped last
   std::vector<Column> columns_;
   std::vector<Id> uncovered_;
 
