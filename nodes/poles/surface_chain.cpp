@@ -5,6 +5,8 @@
 #include <span>
 #include <utility>
 
+#include "types/disjoint_sets.hpp"
+
 namespace ballflow::geometry {
 
 namespace {
@@ -120,24 +122,13 @@ std::int64_t make_consistent(std::vector<Triangle>& triangles, Edges& edges) {
 }
 
 void number_components(SurfaceChain& chain, Edges& edges) {
-  std::vector<std::int32_t> parent(chain.triangles.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](std::int32_t t) {
-    while (parent[at(t)] != t) {
-      parent[at(t)] = parent[at(parent[at(t)])];
-      t = parent[at(t)];
-    }
-    return t;
-  };
+  DisjointSets connected(chain.triangles.size());
   edges.for_each([&](std::int32_t, std::int32_t, std::span<Side> sides) {
-    for (std::size_t k = 1; k < sides.size(); ++k) {
-      const std::int32_t a = root(sides[0].triangle), b = root(sides[k].triangle);
-      parent[at(std::max(a, b))] = std::min(a, b);
-    }
+    for (std::size_t k = 1; k < sides.size(); ++k) connected.join(sides[0].triangle, sides[k].triangle);
   });
   chain.component.assign(chain.triangles.size(), -1);
-  for (std::int32_t t = 0; t < static_cast<std::int32_t>(parent.size()); ++t) {
-    const std::int32_t r = root(t);
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(chain.triangles.size()); ++t) {
+    const std::int32_t r = connected.root(t);
     chain.component[at(t)] = r == t ? chain.components++ : chain.component[at(r)];
   }
 }

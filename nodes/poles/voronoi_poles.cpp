@@ -24,6 +24,8 @@
 #include <utility>
 #include <vector>
 
+#include "types/disjoint_sets.hpp"
+
 namespace ballflow::geometry {
 
 namespace {
@@ -312,25 +314,18 @@ void Diagram::build(Monitor& monitor) {
 void Diagram::merge_coincident(std::vector<std::pair<std::int32_t, std::int32_t>> pairs) {
   vertex_.resize(sites_.size());
   std::iota(vertex_.begin(), vertex_.end(), 0);
-  const auto root = [this](std::int32_t cell) {
-    while (vertex_[at(cell)] != cell) {
-      vertex_[at(cell)] = vertex_[at(vertex_[at(cell)])];
-      cell = vertex_[at(cell)];
-    }
-    return cell;
-  };
+  DisjointSets coincident(sites_.size());
   std::vector<std::int32_t> members;
   for (const auto& [a, b] : pairs) {
     members.push_back(a);
     members.push_back(b);
-    const std::int32_t ra = root(a), rb = root(b);
-    vertex_[at(std::max(ra, rb))] = std::min(ra, rb);
+    coincident.join(a, b);
   }
   std::sort(members.begin(), members.end());
   members.erase(std::unique(members.begin(), members.end()), members.end());
   std::vector<std::pair<std::int32_t, std::int32_t>> grouped;  // root, member
   grouped.reserve(members.size());
-  for (const std::int32_t cell : members) grouped.emplace_back(root(cell), cell);
+  for (const std::int32_t cell : members) grouped.emplace_back(coincident.root(cell), cell);
   std::sort(grouped.begin(), grouped.end());
   for (std::size_t first = 0; first < grouped.size();) {
     std::size_t last = first;

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 #include <utility>
+
+#include "types/disjoint_sets.hpp"
 
 namespace ballflow::geometry {
 
@@ -22,19 +23,8 @@ Soup make_caps(const TriangleMesh& mesh, const SurfaceChain& chain) {
   Soup caps;
   if (chain.boundary.empty()) return caps;
   caps.vertices.assign(mesh.vertices.begin(), mesh.vertices.end());
-  std::vector<std::int32_t> parent(mesh.vertices.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](std::int32_t v) {
-    while (parent[at(v)] != v) {
-      parent[at(v)] = parent[at(parent[at(v)])];
-      v = parent[at(v)];
-    }
-    return v;
-  };
-  for (const auto& [u, v] : chain.boundary) {
-    const std::int32_t a = root(u), b = root(v);
-    parent[at(std::max(a, b))] = std::min(a, b);
-  }
+  DisjointSets loops(mesh.vertices.size());
+  for (const auto& [u, v] : chain.boundary) loops.join(u, v);
   struct Mean {
     Vec3 sum;
     double count = 0;
@@ -42,12 +32,12 @@ Soup make_caps(const TriangleMesh& mesh, const SurfaceChain& chain) {
   };
   std::vector<Mean> means(mesh.vertices.size());
   for (const auto& edge : chain.boundary) {
-    Mean& mean = means[at(root(edge[0]))];
+    Mean& mean = means[at(loops.root(edge[0]))];
     mean.sum = mean.sum + mesh.vertices[at(edge[0])];  // a cycle: its first ends are all its vertices
     mean.count += 1;
   }
   for (const auto& [u, v] : chain.boundary) {
-    Mean& mean = means[at(root(u))];
+    Mean& mean = means[at(loops.root(u))];
     if (mean.apex < 0) {
       mean.apex = static_cast<std::int32_t>(caps.vertices.size());
       caps.vertices.push_back(1 / mean.count * mean.sum);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "shape/ball_predicates.hpp"
+#include "types/disjoint_sets.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -67,29 +68,6 @@ void sort(Cell& c) {
   order(1, 3);
   order(1, 2);
 }
-
-class UnionFind {
- public:
-  explicit UnionFind(std::size_t n) : root_(n) { std::iota(root_.begin(), root_.end(), 0); }
-  /// False when a and b were together already.
-  bool unite(std::int32_t a, std::int32_t b) {
-    a = find(a);
-    b = find(b);
-    if (a == b) return false;
-    root_[at(std::max(a, b))] = std::min(a, b);
-    return true;
-  }
-
- private:
-  std::int32_t find(std::int32_t i) {
-    while (root_[at(i)] != i) {
-      root_[at(i)] = root_[at(root_[at(i)])];
-      i = root_[at(i)];
-    }
-    return i;
-  }
-  std::vector<std::int32_t> root_;
-};
 
 /// Lists of equal things side by side: first the number of every list is counted, then they are filled.
 template <class T>
@@ -172,8 +150,8 @@ class Classification {
   SimplicialComplex result() {
     SimplicialComplex complex;
     complex.betti[0] = static_cast<std::int64_t>(vertex_ids_.size());
-    UnionFind pieces(vertices_.size());
-    for (const Edge& e : edges_) complex.betti[0] -= pieces.unite(e[0], e[1]) ? 1 : 0;
+    DisjointSets pieces(vertices_.size());
+    for (const Edge& e : edges_) complex.betti[0] -= pieces.join(e[0], e[1]) ? 1 : 0;
     complex.vertices = std::move(vertex_ids_);
     complex.vertex_classes = std::move(vertex_classes_);
     complex.edges = std::move(edges_);
@@ -223,7 +201,7 @@ class Classification {
 
   void classify_facets() {
     facets_.reserve(2 * mesh_.size());
-    UnionFind voids(mesh_.size());
+    DisjointSets voids(mesh_.size());
     cavities_ = static_cast<std::int64_t>(mesh_.size() - tetrahedra_.size()) - 1;
     for (std::size_t c = 0; c < mesh_.size(); ++c) {
       if (c % 4096 == 0)
@@ -232,7 +210,7 @@ class Classification {
         const std::size_t n = at(mesh_.neighbors[c][i]);
         if (n < c) continue;  // met from the other side
         const bool in_complex = classify_facet(c, n, i);
-        if (!in_complex && voids.unite(static_cast<std::int32_t>(c), static_cast<std::int32_t>(n)))
+        if (!in_complex && voids.join(static_cast<std::int32_t>(c), static_cast<std::int32_t>(n)))
           --cavities_;
       }
     }

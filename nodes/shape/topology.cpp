@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <vector>
 
 #include "poles/signed_crossings.hpp"
 #include "shape/alpha_shape.hpp"
 #include "shape/binary_system.hpp"
 #include "shape/self_intersection.hpp"
+#include "types/disjoint_sets.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -40,21 +40,13 @@ class Shells {
  private:
   void number() {
     const std::size_t n = surface_.vertices.size();
-    std::vector<std::int32_t> root(n);
-    std::iota(root.begin(), root.end(), 0);
-    const auto find = [&root](std::int32_t v) {
-      while (root[at(v)] != v) v = root[at(v)] = root[at(root[at(v)])];
-      return v;
-    };
+    DisjointSets connected(n);
     for (const Triangle& t : surface_.triangles) {
-      for (const std::int32_t v : {t[1], t[2]}) {
-        const std::int32_t a = find(t[0]), b = find(v);
-        root[at(std::max(a, b))] = std::min(a, b);
-      }
+      for (const std::int32_t v : {t[1], t[2]}) connected.join(t[0], v);
     }
     std::vector<std::int32_t> shell(n, -1);
     for (const Triangle& t : surface_.triangles) {
-      const auto r = at(find(t[0]));
+      const auto r = at(connected.root(t[0]));
       if (shell[r] < 0) {
         shell[r] = static_cast<std::int32_t>(count_++);
         corner_.push_back(t[0]);

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "shape/inclusion_homology.hpp"
 #include "shape/listing_3_2.hpp"
+#include "types/disjoint_sets.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -95,18 +95,10 @@ class Diagnosis {
     }
     if (std::all_of(parts.begin(), parts.end(), [](std::int32_t n) { return n <= 1; })) return result;
     reach();
-    Ids root(image.size());
-    std::iota(root.begin(), root.end(), 0);
-    const auto find = [&root](std::int32_t i) {
-      while (root[at(i)] != i) i = root[at(i)] = root[at(root[at(i)])];
-      return i;
-    };
+    DisjointSets matched(image.size());
     for (const Bridge& bridge :
          bridges([&](std::int32_t u, std::int32_t v) { return part_[at(u)] != part_[at(v)]; })) {
-      const std::int32_t a = find(part_[at(bridge.u)]), b = find(part_[at(bridge.v)]);
-      if (a == b) continue;
-      root[at(std::max(a, b))] = std::min(a, b);
-      take_path(bridge, result);
+      if (matched.join(part_[at(bridge.u)], part_[at(bridge.v)])) take_path(bridge, result);
     }
     return result;
   }

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "types/disjoint_sets.hpp"
+
 namespace ballflow::geometry {
 namespace {
 
@@ -88,19 +90,12 @@ Vec3 vertex_of(const SimplicialComplex& complex, std::array<std::int32_t, 3> tri
 class Chains {
  public:
   Chains(const std::vector<Vec3>& points, double reach)
-      : points_(points), reach_(reach), root_(points.size()) {
-    std::iota(root_.begin(), root_.end(), 0);
-    std::vector<std::int32_t> all(root_);
+      : points_(points), reach_(reach), chains_(points.size()) {
+    std::vector<std::int32_t> all(points.size());
+    std::iota(all.begin(), all.end(), 0);
     split(std::span(all), 0, 0);
   }
-  std::int32_t root(std::int32_t i) {
-    while (root_[static_cast<std::size_t>(i)] != i) {
-      std::int32_t& up = root_[static_cast<std::size_t>(i)];
-      up = root_[static_cast<std::size_t>(up)];
-      i = up;
-    }
-    return i;
-  }
+  std::int32_t root(std::int32_t i) { return chains_.root(i); }
 
  private:
   static double coordinate(Vec3 p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
@@ -126,16 +121,14 @@ class Chains {
   void join(std::span<std::int32_t> range) {
     for (std::size_t i = 0; i < range.size(); ++i) {
       for (std::size_t k = i + 1; k < range.size(); ++k) {
-        if (squared_distance(at(range[i]), at(range[k])) > reach_ * reach_) continue;
-        const std::int32_t a = root(range[i]), b = root(range[k]);
-        root_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+        if (squared_distance(at(range[i]), at(range[k])) <= reach_ * reach_) chains_.join(range[i], range[k]);
       }
     }
   }
 
   const std::vector<Vec3>& points_;
   double reach_;
-  std::vector<std::int32_t> root_;
+  DisjointSets chains_;
 };
 
 }  // namespace

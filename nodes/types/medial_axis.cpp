@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "types/axis_sheets.hpp"
+#include "types/disjoint_sets.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -88,24 +88,10 @@ AxisTopology axis_topology(const MedialAxis& axis) {
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
 
-  std::vector<std::int32_t> root(axis.vertices.size());
-  std::iota(root.begin(), root.end(), 0);
-  const auto find = [&root](std::int32_t v) {
-    while (root[static_cast<std::size_t>(v)] != v) {
-      std::int32_t& up = root[static_cast<std::size_t>(v)];
-      up = root[static_cast<std::size_t>(up)];
-      v = up;
-    }
-    return v;
-  };
+  DisjointSets connected(axis.vertices.size());
   AxisTopology topology;
   topology.components = static_cast<std::int64_t>(axis.vertices.size());
-  for (const Edge& e : edges) {
-    const std::int32_t a = find(e[0]), b = find(e[1]);
-    if (a == b) continue;
-    root[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-    --topology.components;
-  }
+  for (const Edge& e : edges) topology.components -= connected.join(e[0], e[1]) ? 1 : 0;
   topology.euler_characteristic = static_cast<std::int64_t>(axis.vertices.size()) -
                                   static_cast<std::int64_t>(edges.size()) +
                                   static_cast<std::int64_t>(axis.polygons());

@@ -6,35 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include "types/disjoint_sets.hpp"
+
 namespace ballflow::geometry {
 namespace {
 
 using Index = std::int32_t;
-
-/// Disjoint sets of 0 .. n-1.
-class Partition {
- public:
-  explicit Partition(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), Index{0}); }
-  Index root(Index i) {
-    while (parent_[at(i)] != i) {
-      parent_[at(i)] = parent_[at(parent_[at(i)])];
-      i = parent_[at(i)];
-    }
-    return i;
-  }
-  /// True when a and b were in different sets.
-  bool join(Index a, Index b) {
-    a = root(a);
-    b = root(b);
-    if (a == b) return false;
-    parent_[at(std::max(a, b))] = std::min(a, b);
-    return true;
-  }
-
- private:
-  static std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-  std::vector<Index> parent_;
-};
 
 /// A directed edge of a triangle, filed under its smaller vertex.
 struct HalfEdge {
@@ -70,7 +47,7 @@ MeshTopology mesh_topology(const TriangleMesh& mesh) {
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
   std::vector<HalfEdge> half_edges(begin[n]);
   std::vector<std::uint32_t> fill(begin.begin(), begin.end() - 1);
-  Partition vertices(n);
+  DisjointSets vertices(n);
   std::vector<bool> used(n, false);
   for (std::size_t f = 0; f < m; ++f) {
     const Triangle& t = mesh.triangles[f];
@@ -88,8 +65,8 @@ MeshTopology mesh_topology(const TriangleMesh& mesh) {
   // One pass over the edges. Two corners at a vertex belong to one fan when their triangles share an edge
   // there: where no edge has three triangles, a fan is a disk or a half disk.
   std::int64_t edges = 0, fans = static_cast<std::int64_t>(half_edges.size());
-  Partition corners(3 * m);
-  Partition boundary(n);
+  DisjointSets corners(3 * m);
+  DisjointSets boundary(n);
   std::vector<bool> on_boundary(n, false);
   bool oriented = true;
   for (std::size_t v = 0; v < n; ++v) {
