@@ -20,7 +20,7 @@ struct IPSolve {
   Library library;
 
   static void declare(NodeDecl<IPSolve>& d) {
-    d.id("IPSolve", 2).summary("Solve independent parts of a covering matrix exactly.");
+    d.id("IPSolve", 3).summary("Solve independent parts of a covering matrix exactly.");
     d.doc(
         "Connected components of at most max_balls rows are solved by integer programming and removed. Every "
         "answer is checked against the matrix and against the bound that its dual prices prove. A component "

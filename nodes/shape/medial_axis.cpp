@@ -86,7 +86,9 @@ std::vector<DelaunayCell> delaunay_cells(const std::vector<Vec3>& points, Monito
   std::vector<Entry> entries;
   entries.reserve(triangulation.number_of_cells());
   triangulation.infinite_vertex()->info() = infinite;
+  Lookout look(monitor);
   for (auto cell = triangulation.all_cells_begin(); cell != triangulation.all_cells_end(); ++cell) {
+    look(32);
     Entry entry{{}, {0, 1, 2, 3}, cell};
     const auto name = [&](int k) { return cell->vertex(k)->info(); };
     std::sort(entry.place.begin(), entry.place.end(), [&](int a, int b) { return name(a) < name(b); });
@@ -94,13 +96,16 @@ std::vector<DelaunayCell> delaunay_cells(const std::vector<Vec3>& points, Monito
     entries.push_back(entry);
   }
   monitor.step(0.9);
-  std::sort(entries.begin(), entries.end(),
-            [](const Entry& a, const Entry& b) { return a.corners < b.corners; });
+  std::sort(entries.begin(), entries.end(), [&look](const Entry& a, const Entry& b) {
+    look(4);
+    return a.corners < b.corners;
+  });
   monitor.step(0.95);
   for (std::size_t i = 0; i < entries.size(); ++i) entries[i].cell->info() = static_cast<std::int32_t>(i);
   std::vector<DelaunayCell> cells;
   cells.reserve(entries.size());
   for (const Entry& entry : entries) {
+    look(16);
     DelaunayCell cell{entry.corners, {}};
     for (std::size_t k = 0; k < 4; ++k) cell.neighbors[k] = entry.cell->neighbor(entry.place[k])->info();
     cells.push_back(cell);
@@ -178,7 +183,8 @@ struct VoronoiVertex {
 
 class Axis {
  public:
-  Axis(const SimplicialComplex& complex, Monitor& monitor) : complex_(complex), monitor_(monitor) {}
+  Axis(const SimplicialComplex& complex, Monitor& monitor)
+      : complex_(complex), monitor_(monitor), look_(monitor) {}
 
   MedialAxis run() {
     if (!complex_.tetrahedra.empty()) {
@@ -211,6 +217,7 @@ class Axis {
 
   const SimplicialComplex& complex_;
   Monitor& monitor_;
+  Lookout look_;
   double size_ = 0;  // longest edge of the bounding box of the union
   double same_ = 0;  // Voronoi vertices so close to a ball centre or to the boundary of R are on it
 
@@ -539,9 +546,11 @@ void Axis::add_singular_part() {
     return static_cast<std::size_t>(std::lower_bound(all.begin(), all.end(), simplex) - all.begin());
   };
   for (const auto& t : complex_.tetrahedra) {
+    look_(64);
     for (std::size_t k = 0; k < 4; ++k) has_tetrahedron[index(complex_.triangles, skip(t, k))] = true;
   }
   for (std::size_t i = 0; i < complex_.triangles.size(); ++i) {
+    look_(64);
     const auto& t = complex_.triangles[i];
     for (std::size_t k = 0; k < 3; ++k) has_triangle[index(complex_.edges, skip(t, k))] = true;
     if (!has_tetrahedron[i]) pieces_.push_back({{t[0], t[1], t[2]}, AxisKind::singular});
@@ -559,6 +568,7 @@ void Axis::add_singular_part() {
 MedialAxis Axis::finish() {
   std::vector<std::int32_t> index(complex_.centers.size() + cells_.size(), -1);
   for (const Piece& piece : pieces_) {
+    look_(16);
     for (const std::int32_t name : piece.corners) index[at(name)] = 0;
   }
   for (const auto& edge : edges_) {
@@ -568,6 +578,7 @@ MedialAxis Axis::finish() {
   std::vector<Vec3> vertices;
   std::vector<double> radii;
   for (std::size_t name = 0; name < index.size(); ++name) {
+    look_(8);
     if (index[name] < 0) continue;
     index[name] = static_cast<std::int32_t>(vertices.size());
     if (name < complex_.centers.size()) {
@@ -582,13 +593,15 @@ MedialAxis Axis::finish() {
     }
   }
   for (Piece& piece : pieces_) {
+    look_(16);
     Polygon& p = piece.corners;
     for (std::int32_t& corner : p) corner = index[at(corner)];
     std::rotate(p.begin(), std::min_element(p.begin(), p.end()), p.end());
     if (p.back() < p[1]) std::reverse(p.begin() + 1, p.end());
   }
   monitor_.step(0.93);
-  std::sort(pieces_.begin(), pieces_.end(), [](const Piece& a, const Piece& b) {
+  std::sort(pieces_.begin(), pieces_.end(), [this](const Piece& a, const Piece& b) {
+    look_(8);
     return a.corners != b.corners ? a.corners < b.corners : a.kind < b.kind;
   });
   monitor_.step(0.96);
@@ -598,6 +611,7 @@ MedialAxis Axis::finish() {
   std::vector<std::int32_t> corners;
   std::vector<std::uint8_t> kinds;
   for (const Piece& piece : pieces_) {
+    look_(16);
     corners.insert(corners.end(), piece.corners.begin(), piece.corners.end());
     offsets.push_back(static_cast<std::int64_t>(corners.size()));
     kinds.push_back(static_cast<std::uint8_t>(piece.kind));
