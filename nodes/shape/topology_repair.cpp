@@ -538,7 +538,7 @@ TopologyRepair repair_topology(const Balls& balls, std::span<const std::int32_t>
                          std::to_string(most_literal) + ")",
                      "use method localised");
   }
-  PartMonitor still(monitor, 0.5, 0.5);  // how many comparisons it takes is not known
+  PartMonitor still(monitor, 0, 0);  // how many comparisons it takes is not known
   const UnionOfBalls whole(balls, still);
   const TopologyRepair repair = Repair(whole, Ids(kept.begin(), kept.end()), options, still).run();
   monitor.step(1);
