@@ -24,8 +24,10 @@ struct Side {
 // Calls visit(edge, sides) for every edge of polygons, ascending.
 template <class Visit>
 void for_each_edge(const MedialAxis& axis, Monitor& monitor, const Visit& visit) {
-  const auto for_each_side = [&axis](const auto& put) {
+  Lookout look(monitor);
+  const auto for_each_side = [&axis, &look](const auto& put) {
     for (std::size_t i = 0; i < axis.polygons(); ++i) {
+      look(16);
       const auto corners = axis.polygon(i);
       for (std::size_t k = 0; k < corners.size(); ++k) {
         const std::int32_t a = corners[k], b = corners[k + 1 < corners.size() ? k + 1 : 0];
@@ -40,7 +42,7 @@ void for_each_edge(const MedialAxis& axis, Monitor& monitor, const Visit& visit)
   std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
   for_each_side([&](std::int32_t smaller, const Side& side) { sides[next[at(smaller)]++] = side; });
   for (std::size_t v = 0; v < axis.vertices.size(); ++v) {
-    if (v % 4096 == 0 && monitor.cancelled()) throw Cancelled();
+    look(16);
     const std::span<Side> own(sides.data() + begin[v], sides.data() + begin[v + 1]);
     std::sort(own.begin(), own.end());
     for (std::size_t first = 0; first < own.size();) {
@@ -60,7 +62,7 @@ struct Link {
 };
 
 // Numbers the polygons by sheets, and finds which ones face the wrong way.
-void label_polygons(std::size_t polygons, const std::vector<Link>& links, AxisSheets& out) {
+void label_polygons(std::size_t polygons, const std::vector<Link>& links, AxisSheets& out, Lookout& look) {
   std::vector<std::size_t> begin(polygons + 1, 0);
   for (const Link& link : links) {
     ++begin[at(link.first) + 1];
@@ -83,6 +85,7 @@ void label_polygons(std::size_t polygons, const std::vector<Link>& links, AxisSh
     out.polygon_sheets[seed] = sheet;
     queue.assign(1, static_cast<std::int32_t>(seed));
     for (std::size_t head = 0; head < queue.size(); ++head) {
+      look(32);
       const std::int32_t polygon = queue[head];
       for (std::size_t k = begin[at(polygon)]; k < begin[at(polygon) + 1]; ++k) {
         const Link& link = links[at(around[k])];
@@ -150,8 +153,8 @@ AxisSheets axis_sheets(const MedialAxis& axis, Monitor& monitor) {
       out.seam_degrees.push_back(static_cast<std::int32_t>(sides.size()));
     }
   });
-  label_polygons(axis.polygons(), links, out);
-  if (monitor.cancelled()) throw Cancelled();
+  Lookout look(monitor);
+  label_polygons(axis.polygons(), links, out, look);
   label_seams(axis.vertices.size(), out);
   return out;
 }
