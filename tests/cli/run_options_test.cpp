@@ -124,9 +124,10 @@ TEST_F(RunOptionsTest, json_lines_follow_their_schema) {
   EXPECT_EQ(count["node_started"], 11);
   EXPECT_EQ(count["node_finished"], 11);
   EXPECT_GE(count["cache_write"], 11);
-  EXPECT_EQ(lines(cold.out).back().at("event"), "run_reported");
-  EXPECT_FALSE(lines(cold.out).back().at("files").empty());
-  for (const auto& [name, file] : lines(cold.out).back().at("files").items())
+  const json reported = lines(cold.out).back();
+  EXPECT_EQ(reported.at("event"), "run_reported");
+  EXPECT_FALSE(reported.at("files").empty());
+  for (const auto& [name, file] : reported.at("files").items())
     EXPECT_TRUE(fs::exists(file.get<std::string>())) << name;
 
   if (std::system("python3 -c 'import jsonschema' 2>/dev/null") != 0)
