@@ -52,10 +52,26 @@ Runner::Impl::Impl(const Dag& dag, const Registry& registry, std::shared_ptr<Sto
   needed_ = targets.empty() ? needed_nodes(dag) : needed_nodes(dag, targets);
 }
 
+namespace {
+
+/// Makes what arenas of the process have in common and keeps it. oneTBB 2021 reads the limit of threads
+/// without a lock when it makes that, so two first runs at once, each with a limit of its own, would race.
+void keep_scheduler() {
+  static tbb::task_arena* const kept = [] {
+    auto* arena = new tbb::task_arena(1);
+    arena->initialize();
+    return arena;
+  }();
+  (void)kept;
+}
+
+}  // namespace
+
 const RunResult& Runner::Impl::run() {
   start_ = Clock::now();
   const double cpu = process_cpu_seconds();
   emit({Event::Kind::run_started});
+  keep_scheduler();
   {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, options_.threads);
     // A round that ends with a void plan has learned the new outputs of at least one node. A node that gives

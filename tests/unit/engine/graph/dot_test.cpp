@@ -64,7 +64,8 @@ TEST_F(DotTest, shows_every_node_and_every_edge_between_ports_that_exist) {
   // Nodes: id -> ports of its table.
   std::map<std::string, std::set<std::string>> ports;
   for (const std::smatch& node : all(text, R"(\n\s*(\w+) \[label=<(<TABLE.*</TABLE>)>\];)")) {
-    for (const std::smatch& port : all(node[2], R"re(PORT="(\w+)")re")) ports[node[1]].insert(port[1]);
+    const std::string table = node[2];  // the matches point into it
+    for (const std::smatch& port : all(table, R"re(PORT="(\w+)")re")) ports[node[1]].insert(port[1]);
   }
   ASSERT_EQ(ports.size(), 6u) << "load, grow, match, rounds, first, second:\n" << text;
   std::size_t edges = 0, back = 0;
