@@ -66,7 +66,7 @@ struct Rgba {
 
 Rgba at(const Image& image, int x, int y) {
   const std::size_t i = 4 * static_cast<std::size_t>(y * image.width + x);
-  return {image.rgba[i], image.rgba[i + 1], image.rgba[i + 2], image.rgba[i + 3]};
+  return {image.rgba.at(i), image.rgba.at(i + 1), image.rgba.at(i + 2), image.rgba.at(i + 3)};
 }
 
 Light light_at(const Image& image, int x, int y) {
@@ -275,7 +275,7 @@ TEST(picture, the_lamp_throws_a_shadow_to_the_lower_right) {
   const Image without = draw({floor}, front(201, 201)), with = draw({floor, ball}, front(201, 201));
   const auto ratio = [&](int x, int y) { return light_at(with, x, y).y / light_at(without, x, y).y; };
   double least = 1;
-  for (int i = 105; i < 170; ++i) least = std::min(least, ratio(i, i + (i - 100) / 2));
+  for (int i = 105; i < 165; ++i) least = std::min(least, ratio(i, i + (i - 100) / 2));
   EXPECT_LT(least, 0.85);
   EXPECT_GT(ratio(60, 60), 0.97);
 }
@@ -469,7 +469,7 @@ TEST(picture, draws_ten_thousand_balls_within_ten_seconds_of_one_core) {
   const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   RecordProperty("cpu_seconds", std::to_string(seconds));
   EXPECT_FALSE(at(image, 800, 600) == (Rgba{255, 255, 255, 255}));
-#ifdef NDEBUG
+#if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   EXPECT_LT(seconds, 10);
 #endif
 }
