@@ -57,12 +57,11 @@ namespace {
 /// Makes what arenas of the process have in common and keeps it. oneTBB 2021 reads the limit of threads
 /// without a lock when it makes that, so two first runs at once, each with a limit of its own, would race.
 void keep_scheduler() {
-  static tbb::task_arena* const kept = [] {
-    auto* arena = new tbb::task_arena(1);
-    arena->initialize();
-    return arena;
-  }();
-  (void)kept;
+  struct Kept {
+    tbb::task_arena arena{1};
+    Kept() { arena.initialize(); }
+  };
+  static Kept kept;
 }
 
 }  // namespace
