@@ -233,17 +233,18 @@ int run(const Common& common, const RunArguments& arguments) {
   report["command"] = "ballflow run " + arguments.graph.words() + arguments.settings.words();
   save_run(*store, id, dag, result, report);
   std::vector<std::string> records;  // written beside the outputs
-  const auto record = [&](const char* what, const std::string& path, const std::string& text) {
+  const auto record = [&](const char* what, const std::string& path, const auto& text) {
     if (path.empty()) return;
     try {
-      write_atomically(path, text);
+      write_atomically(path, text());
       records.push_back(std::string(what) + " " + path);
     } catch (const Error& failure) {
       if (!written.failure) written.failure = failure;
     }
   };
-  record("report", report_path, report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
-  if (timeline != nullptr) record("trace", arguments.trace, timeline->text());
+  record("report", report_path,
+         [&report] { return report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; });
+  if (timeline != nullptr) record("trace", arguments.trace, [timeline] { return timeline->text(); });
   if (arguments.json) {
     Json files = Json::object();
     for (const WrittenFile& file : written.files) files[file.output] = file.path;
