@@ -22,9 +22,9 @@ struct Compare {
         "Hausdorff distances both ways between the surface and the boundary of the union, with bounds that "
         "hold "
         "for every point between the samples; mean distances, coverage, protrusion, volumes. Without a mesh "
-        "the "
-        "points themselves are the surface. Accepts any mesh and any balls; refuses none, and a spacing that "
-        "needs more than 30 million samples.");
+        "the points themselves are the surface. Accepts any mesh and any balls; refuses an empty set of "
+        "balls, "
+        "no surface at all, and a spacing that needs more than 30 million samples.");
     d.avoid_when("only the samples matter: VerifyCover is exact and faster.");
     d.cites("kornberger2010", "3.5 and 3.9").cites("aspert2002", "2");
     d.input("balls", &Compare::balls).doc("the balls");

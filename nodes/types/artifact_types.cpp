@@ -387,7 +387,8 @@ void TypeOf<geometry::MinkowskiReport>::declare(TypeDecl<geometry::MinkowskiRepo
   using T = geometry::MinkowskiReport;
   d.id("MinkowskiReport", 1).doc("What the Minkowski sum of two sets of balls came to.");
   d.scalar("pairs", &T::pairs).doc("pairs of balls");
-  d.scalar("survivors", &T::survivors).doc("sums of pairs that were triangulated");
+  d.scalar("survivors", &T::survivors)
+      .doc("sums of pairs that were triangulated; of algorithm memory: that were vertices at the end");
   d.scalar("count", &T::count).doc("sums that contribute");
   d.scalar("touching_boundary", &T::touching_boundary).doc("of these, on the boundary of the union");
   d.scalar("lower", &T::lower).doc("corner of the bounding box of the union, model units");

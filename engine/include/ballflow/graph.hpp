@@ -158,8 +158,8 @@ std::string base_path(const std::string& path);
 
 /// Reads, expands and checks a graph file: syntax, unknown and duplicate keys, node types, ports, types of
 /// edges, required inputs, cycles, parameter kinds and ranges, overrides that match nothing. Throws
-/// GraphError with ALL findings. Relative paths of file parameters written in a graph file are relative to
-/// the current directory when they come from an override or a default, as on every command line.
+/// GraphError with ALL findings. Relative paths of file parameters are relative to the current directory,
+/// wherever they are written; those of subgraphs to the file that names them.
 /// Limits: 64 MB of text, nesting depth 100, 1 000 000 nodes, subgraphs 50 deep, 100 000 variants.
 ///
 /// `given`: artifacts for the "inputs" of a graph without a sweep, by name; they become nodes

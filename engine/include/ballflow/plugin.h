@@ -8,7 +8,7 @@
  * from the file before it loads the library: a library built for another ABI is refused and none of its
  * code, static initialisers included, ever runs. BALLFLOW_PLUGIN in <ballflow/sdk.hpp> provides both.
  *
- * Declarations cross the boundary as JSON text (schema: see docs in node_decl.hpp and type_decl.hpp).
+ * Declarations cross the boundary as JSON text (what is in it: node_decl.hpp; sdk.hpp writes it).
  * Every struct starts with its size, so that members can be appended within one ABI version. */
 #ifndef BALLFLOW_PLUGIN_H
 #define BALLFLOW_PLUGIN_H
@@ -101,7 +101,7 @@ typedef struct bf_node {
 typedef struct bf_type {
   uint32_t struct_size;
   uint32_t reserved;
-  bf_bytes declaration; /* JSON, see type_decl.hpp */
+  bf_bytes declaration; /* JSON, see node_decl.hpp */
   /* Calls found(context, text) when an invariant of the type is broken. */
   void (*check)(const bf_artifact* artifact, void* context, void (*found)(void* context, bf_bytes text));
 } bf_type;

@@ -6,7 +6,7 @@
 //     EnlargeOptions options;                       // defaults live once, in the options struct
 //
 //     static void declare(NodeDecl<Enlarge>& d) {
-//       d.id("Enlarge", 1).summary("Grow radii so that pruning may drop small features.");
+//       d.id("acme.Grow", 1).summary("Grow radii so that pruning may drop small features.");
 //       d.cites("kornberger2010", "3.5");
 //       d.input("balls", &Enlarge::balls).doc("n balls");
 //       d.output("balls", &Enlarge::enlarged).doc("n balls, same order, radii >= input");
