@@ -9,6 +9,7 @@
 #include "shape/binary_system.hpp"
 #include "shape/self_intersection.hpp"
 #include "types/disjoint_sets.hpp"
+#include "types/polygon_edges.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -165,29 +166,14 @@ SolidTopology solid_topology(const TriangleMesh& surface, Monitor& monitor) {
 
 Betti axis_betti(const MedialAxis& axis, Monitor& monitor) {
   // A cycle is a set of polygons of which an even number meets at every side.
-  struct Side {
-    std::array<std::int32_t, 2> ends;
-    std::int32_t polygon;
-  };
-  std::vector<Side> sides;
-  sides.reserve(axis.polygon_vertices.size());
-  for (std::size_t i = 0; i < axis.polygons(); ++i) {
-    const auto corners = axis.polygon(i);
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      const std::int32_t u = corners[k], v = corners[(k + 1) % corners.size()];
-      sides.push_back({{std::min(u, v), std::max(u, v)}, static_cast<std::int32_t>(i)});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return a.ends != b.ends ? a.ends < b.ends : a.polygon < b.polygon;
-  });
-  std::vector<std::int64_t> offsets;
+  std::vector<std::int64_t> offsets{0};
   std::vector<std::int32_t> terms;
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    if (i == 0 || sides[i].ends != sides[i - 1].ends) offsets.push_back(static_cast<std::int64_t>(i));
-    terms.push_back(sides[i].polygon);
-  }
-  offsets.push_back(static_cast<std::int64_t>(sides.size()));
+  terms.reserve(axis.polygon_vertices.size());
+  for_each_polygon_edge(axis, monitor,
+                        [&](const std::array<std::int32_t, 2>&, std::span<const PolygonSide> sides) {
+                          for (const PolygonSide& side : sides) terms.push_back(side.polygon);
+                          offsets.push_back(static_cast<std::int64_t>(terms.size()));
+                        });
   const BinarySystem cycles(axis.polygons(), offsets, terms, {}, monitor);
 
   const AxisTopology cells = axis_topology(axis);

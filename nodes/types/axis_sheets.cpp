@@ -5,55 +5,12 @@
 #include <numeric>
 #include <span>
 
+#include "types/polygon_edges.hpp"
+
 namespace ballflow::geometry {
 namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-// A side of a polygon, kept with the smaller of its two vertices.
-struct Side {
-  std::int32_t larger;  // vertex
-  std::int32_t polygon;
-  bool forward;  // the polygon runs from the smaller vertex to the larger one
-
-  friend bool operator<(const Side& a, const Side& b) {
-    return a.larger != b.larger ? a.larger < b.larger : a.polygon < b.polygon;
-  }
-};
-
-// Calls visit(edge, sides) for every edge of polygons, ascending.
-template <class Visit>
-void for_each_edge(const MedialAxis& axis, Monitor& monitor, const Visit& visit) {
-  Lookout look(monitor);
-  const auto for_each_side = [&axis, &look](const auto& put) {
-    for (std::size_t i = 0; i < axis.polygons(); ++i) {
-      look(16);
-      const auto corners = axis.polygon(i);
-      for (std::size_t k = 0; k < corners.size(); ++k) {
-        const std::int32_t a = corners[k], b = corners[k + 1 < corners.size() ? k + 1 : 0];
-        put(std::min(a, b), Side{std::max(a, b), static_cast<std::int32_t>(i), a < b});
-      }
-    }
-  };
-  std::vector<std::size_t> begin(axis.vertices.size() + 1, 0);
-  for_each_side([&](std::int32_t smaller, const Side&) { ++begin[at(smaller) + 1]; });
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<Side> sides(begin.back());
-  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-  for_each_side([&](std::int32_t smaller, const Side& side) { sides[next[at(smaller)]++] = side; });
-  for (std::size_t v = 0; v < axis.vertices.size(); ++v) {
-    look(16);
-    const std::span<Side> own(sides.data() + begin[v], sides.data() + begin[v + 1]);
-    std::sort(own.begin(), own.end());
-    for (std::size_t first = 0; first < own.size();) {
-      std::size_t last = first;
-      while (last < own.size() && own[last].larger == own[first].larger) ++last;
-      visit(std::array{static_cast<std::int32_t>(v), own[first].larger},
-            std::span<const Side>(own).subspan(first, last - first));
-      first = last;
-    }
-  }
-}
 
 // Two polygons at an edge that no other polygon has.
 struct Link {
@@ -145,14 +102,15 @@ void label_seams(std::size_t vertices, AxisSheets& out) {
 AxisSheets axis_sheets(const MedialAxis& axis, Monitor& monitor) {
   AxisSheets out;
   std::vector<Link> links;
-  for_each_edge(axis, monitor, [&](const std::array<std::int32_t, 2>& edge, std::span<const Side> sides) {
-    if (sides.size() == 2) {
-      links.push_back({sides[0].polygon, sides[1].polygon, sides[0].forward != sides[1].forward});
-    } else if (sides.size() > 2) {
-      out.seams.push_back(edge);
-      out.seam_degrees.push_back(static_cast<std::int32_t>(sides.size()));
-    }
-  });
+  for_each_polygon_edge(
+      axis, monitor, [&](const std::array<std::int32_t, 2>& edge, std::span<const PolygonSide> sides) {
+        if (sides.size() == 2) {
+          links.push_back({sides[0].polygon, sides[1].polygon, sides[0].forward != sides[1].forward});
+        } else if (sides.size() > 2) {
+          out.seams.push_back(edge);
+          out.seam_degrees.push_back(static_cast<std::int32_t>(sides.size()));
+        }
+      });
   Lookout look(monitor);
   label_polygons(axis.polygons(), links, out, look);
   label_seams(axis.vertices.size(), out);

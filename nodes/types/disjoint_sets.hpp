@@ -16,7 +16,6 @@ class DisjointSets {
   /// n sets of one element each.
   explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
 
-  std::size_t size() const { return parent_.size(); }
   /// The least element of the set of i.
   std::int32_t root(std::int32_t i) {
     while (parent_[at(i)] != i) {

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "types/axis_sheets.hpp"
 #include "types/disjoint_sets.hpp"
+#include "types/polygon_edges.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -18,32 +18,10 @@ Edge undirected(std::int32_t a, std::int32_t b) { return a < b ? Edge{a, b} : Ed
 
 /// Sides of polygons, each once, ascending.
 std::vector<Edge> polygon_sides(const MedialAxis& axis) {
-  const auto for_each = [&axis](const auto& visit) {
-    for (std::size_t i = 0; i < axis.polygons(); ++i) {
-      const auto corners = axis.polygon(i);
-      for (std::size_t k = 0; k < corners.size(); ++k) {
-        visit(undirected(corners[k], corners[(k + 1) % corners.size()]));
-      }
-    }
-  };
-  // Filed under their smaller ends, and sorted there.
-  const auto at = [](std::int32_t v) { return static_cast<std::size_t>(v); };
-  std::vector<std::size_t> begin(axis.vertices.size() + 1);
-  for_each([&](const Edge& side) { ++begin[at(side[0]) + 1]; });
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<std::int32_t> larger(begin.back());
-  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-  for_each([&](const Edge& side) { larger[next[at(side[0])]++] = side[1]; });
   std::vector<Edge> sides;
-  sides.reserve(larger.size() / 2 + 1);
-  for (std::size_t v = 0; v < axis.vertices.size(); ++v) {
-    const auto first = larger.begin() + static_cast<std::ptrdiff_t>(begin[v]),
-               last = larger.begin() + static_cast<std::ptrdiff_t>(begin[v + 1]);
-    std::sort(first, last);
-    for (auto end = first; end != last; ++end) {
-      if (end == first || *end != end[-1]) sides.push_back({static_cast<std::int32_t>(v), *end});
-    }
-  }
+  sides.reserve(axis.polygon_vertices.size() / 2 + 1);
+  for_each_polygon_edge(axis, no_monitor(),
+                        [&sides](const Edge& edge, std::span<const PolygonSide>) { sides.push_back(edge); });
   return sides;
 }
 
