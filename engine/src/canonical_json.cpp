@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
@@ -157,6 +158,58 @@ void write_string(std::string_view text, std::string& out) {
   out += '"';
 }
 
+void write_number(double value, std::string& out) {
+  if (value == 0) {  // -0 too
+    out += '0';
+    return;
+  }
+  // The shortest digits that read back the same, "d.ddde-dd", and where ECMAScript puts the point.
+  std::array<char, 32> text;
+  const char* end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::scientific).ptr;
+  std::string_view shown(text.data(), static_cast<std::size_t>(end - text.data()));
+  if (shown.front() == '-') {
+    out += '-';
+    shown.remove_prefix(1);
+  }
+  const std::size_t e = shown.find('e');
+  std::string digits(1, shown.front());
+  if (e > 2) digits += shown.substr(2, e - 2);
+  const char* exponent_digits = shown.data() + e + 1 + (shown[e + 1] == '+');
+  int exponent = 0;
+  std::from_chars(exponent_digits, end, exponent);
+  const int count = static_cast<int>(digits.size());
+  const int point = exponent + 1;  // the number is 0.digits * 10^point
+  if (count <= point && point <= 21) {
+    out += digits;
+    out.append(static_cast<std::size_t>(point - count), '0');
+  } else if (0 < point && point <= 21) {
+    out.append(digits, 0, static_cast<std::size_t>(point));
+    out += '.';
+    out.append(digits, static_cast<std::size_t>(point));
+  } else if (-6 < point && point <= 0) {
+    out += "0.";
+    out.append(static_cast<std::size_t>(-point), '0');
+    out += digits;
+  } else {
+    out += digits.front();
+    if (count > 1) {
+      out += '.';
+      out.append(digits, 1);
+    }
+    out += exponent < 0 ? "e-" : "e+";
+    write_number(std::abs(exponent), out);
+  }
+}
+
+void write_double(double value, std::string& out) {
+  std::array<char, 64> text;
+  const char* end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  const std::string_view shown(text.data(), static_cast<std::size_t>(end - text.data()));
+  out += shown;
+  if (shown.find_first_of(".e") == std::string_view::npos) out += ".0";
+}
+
 void write_value(const Json& value, std::string& out) {
   switch (value.type()) {
     case Json::value_t::null:
@@ -172,7 +225,7 @@ void write_value(const Json& value, std::string& out) {
       write_number(value.get<std::uint64_t>(), out);
       break;
     case Json::value_t::number_float:
-      write_number(value.get<double>(), out);
+      write_double(value.get<double>(), out);
       break;
     case Json::value_t::string: {
       const auto& text = value.get_ref<const std::string&>();

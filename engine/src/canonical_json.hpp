@@ -3,9 +3,9 @@
 
 #include <array>
 #include <charconv>
+#include <concepts>
 #include <string>
 #include <string_view>
-#include <type_traits>
 
 #include "ballflow/node_decl.hpp"
 
@@ -14,16 +14,21 @@ namespace ballflow {
 /// Appends a text in quotes.
 void write_string(std::string_view text, std::string& out);
 
-template <class Number>
+template <std::integral Number>
 void write_number(Number value, std::string& out) {
-  std::array<char, 64> text;
-  const char* end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  const std::string_view shown(text.data(), static_cast<std::size_t>(end - text.data()));
-  out += shown;
-  if (std::is_floating_point_v<Number> && shown.find_first_of(".e") == std::string_view::npos) out += ".0";
+  std::array<char, 24> text;
+  out.append(text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr);
 }
 
-/// Appends a value in one line, objects in the order of their members. A serializer is set up for arrays and
+/// As canonical_json() does: RFC 8785, section 3.2.2.3, which is Number::toString of ECMAScript. `value` is
+/// finite.
+void write_number(double value, std::string& out);
+
+/// For key manifests (ballflow/key.hpp), whose bytes tell a number that is a double from an integer: always with
+/// a point or an exponent. `value` is finite.
+void write_double(double value, std::string& out);
+
+/// Appends a value of a key manifest in one line, objects in the order of their members. A serializer is set up for arrays and
 /// objects only: parameters are numbers and texts as a rule.
 void write_value(const Json& value, std::string& out);
 

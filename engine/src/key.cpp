@@ -10,7 +10,7 @@
 namespace ballflow {
 namespace {
 
-constexpr int key_format = 1;
+constexpr int key_format = 2;  // 2: summaries have the numbers of RFC 8785
 
 void add_u64(std::string& bytes, std::uint64_t value) {
   char little_endian[8];

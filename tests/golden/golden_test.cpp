@@ -64,14 +64,17 @@ const std::vector<Case>& cases() {
   return all;
 }
 
-/// The summaries of all outputs: small, deterministic, readable in a diff.
+/// The summaries of all outputs, which can be read in a diff, and the digests of all their bytes.
 Json figures(const Dag& dag, const RunResult& result) {
-  Json json = Json::object();
+  Json json = Json::object(), digests = Json::object();
   for (const DagOutput& output : dag.outputs) {
     for (const OutputEntry& entry : result.nodes[output.from.node].outputs) {
-      if (entry.port == output.from.port) json[output.name] = Json::parse(entry.summary);
+      if (entry.port != output.from.port) continue;
+      json[output.name] = Json::parse(entry.summary);
+      digests[output.name] = entry.digest.hex();
     }
   }
+  json["digests"] = digests;
   return json;
 }
 

@@ -3,7 +3,7 @@
 //
 // Manifest: a JSON text for people and explain, from which the hashed bytes are derived field by field,
 // each length-prefixed and type-tagged (doubles as IEEE bits, -0 as 0):
-//   {"format":1,"node":"Enlarge","version":1,"libraries":{...},"params":{...},"seed":null,
+//   {"format":2,"node":"Enlarge","version":1,"libraries":{...},"params":{...},"seed":null,
 //    "inputs":{"balls":{"type":"Balls","version":1,"digest":"..."}}}
 // A loop has "body" too: {"nodes":{"0:Reduce":{...,"inputs":{"cover":"inputs.cover"}}},"states":{...}}.
 // A file parameter appears as {"file":{"digest":"...","format":"off.gz"}}.

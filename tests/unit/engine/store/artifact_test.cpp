@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <bit>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -109,7 +111,7 @@ TEST(artifact, file_is_exactly_the_documented_layout) {
   const std::string data = std::string("\0\0\0\0\0\0\xf0\x3f", 8) + std::string("\0\0\0\0\0\0\x04\xc0", 8) +
                            std::string("\x07\0\0\0", 4) + "\x01\x02\x03";
   const std::string expected = file_of(
-      R"({"__metadata__":{"ballflow":"1","summary":"{\"box\":[0.5,1.0],\"count\":2,\"name\":\"é\\\"\"}",)"
+      R"({"__metadata__":{"ballflow":"1","summary":"{\"box\":[0.5,1],\"count\":2,\"name\":\"é\\\"\"}",)"
       R"("type":"Probe","version":"3"},)"
       R"("a":{"dtype":"F64","shape":[2,1],"data_offsets":[0,16]},)"
       R"("b":{"dtype":"U8","shape":[3],"data_offsets":[20,23]},)"
@@ -380,7 +382,7 @@ TEST(canonical_json, has_one_spelling) {
   const auto canonical = [](const std::string& text) { return canonical_json(text, ExitCode::usage); };
   EXPECT_EQ(
       canonical(R"( { "b" : [ 1 , 2.50 , true , null ] , "a" : { "z" : "\u00e9\u0007\/" , "Z" : -0.0 } } )"),
-      "{\"a\":{\"Z\":-0.0,\"z\":\"\xc3\xa9\\u0007/\"},\"b\":[1,2.5,true,null]}");
+      "{\"a\":{\"Z\":0,\"z\":\"\xc3\xa9\\u0007/\"},\"b\":[1,2.5,true,null]}");
   EXPECT_EQ(canonical("{}"), "{}");
   EXPECT_EQ(canonical("[[],{}]"), "[[],{}]");
   EXPECT_EQ(canonical("18446744073709551615"), "18446744073709551615");
@@ -391,7 +393,42 @@ TEST(canonical_json, has_one_spelling) {
     const std::string once = canonical(number);
     EXPECT_EQ(canonical(once), once) << number;
     EXPECT_EQ(std::strtod(once.c_str(), nullptr), std::strtod(number.c_str(), nullptr)) << number;
-    EXPECT_NE(once.find_first_of(".e"), std::string::npos) << number << " stays a double, not " << once;
+  }
+}
+
+TEST(canonical_json, writes_numbers_as_ecmascript_does) {
+  // RFC 8785, appendix B, and the borders between the four forms of ECMAScript's Number::toString.
+  const std::vector<std::pair<std::uint64_t, std::string>> samples = {
+      {0x0000000000000000, "0"},
+      {0x8000000000000000, "0"},
+      {0x0000000000000001, "5e-324"},
+      {0x8000000000000001, "-5e-324"},
+      {0x7fefffffffffffff, "1.7976931348623157e+308"},
+      {0xffefffffffffffff, "-1.7976931348623157e+308"},
+      {0x4340000000000000, "9007199254740992"},
+      {0xc340000000000000, "-9007199254740992"},
+      {0x4430000000000000, "295147905179352830000"},
+      {0x44b52d02c7e14af5, "9.999999999999997e+22"},
+      {0x44b52d02c7e14af6, "1e+23"},
+      {0x44b52d02c7e14af7, "1.0000000000000001e+23"},
+      {0x444b1ae4d6e2ef4e, "999999999999999700000"},
+      {0x444b1ae4d6e2ef4f, "999999999999999900000"},
+      {0x444b1ae4d6e2ef50, "1e+21"},
+      {0x3eb0c6f7a0b5ed8c, "9.999999999999997e-7"},
+      {0x3eb0c6f7a0b5ed8d, "0.000001"},
+      {0x41b3de4355555553, "333333333.3333332"},
+      {0x41b3de4355555554, "333333333.33333325"},
+      {0x41b3de4355555555, "333333333.3333333"},
+      {0x41b3de4355555556, "333333333.3333334"},
+      {0x41b3de4355555557, "333333333.33333343"},
+      {0xbecbf647612f3696, "-0.0000033333333333333333"},
+      {0x43143ff3c1cb0959, "1424953923781206.2"},
+  };
+  for (const auto& [bits, text] : samples) {
+    char digits[64];
+    std::snprintf(digits, sizeof digits, "%.17e", std::bit_cast<double>(bits));
+    EXPECT_EQ(canonical_json(digits, ExitCode::usage), text);
+    EXPECT_EQ(canonical_json(text, ExitCode::usage), text);
   }
 }
 
