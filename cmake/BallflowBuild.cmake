@@ -1,4 +1,4 @@
-# Compiler settings of the whole tree, and the three functions that make its targets.
+# Compiler settings of the whole tree, and the functions that make its targets.
 
 # Reproducible floating point on every x86-64: no -march=native, no fused multiply-add, no fast-math.
 # -frounding-math: CGAL's interval arithmetic changes the rounding mode.
@@ -22,30 +22,73 @@ endif()
 
 set(BALLFLOW_PLUGIN_DIR ${CMAKE_BINARY_DIR}/lib/ballflow)
 
-# ballflow_node_family(family LIBRARIES ... EXCEPT file.cpp ...): the calling folder is a family of nodes.
+# The floors of the house (floors.txt): who may include whom.
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/floors.txt)
+file(STRINGS ${PROJECT_SOURCE_DIR}/cmake/floors.txt floors REGEX "^[a-z]")
+foreach(floor IN LISTS floors)
+  string(REGEX REPLACE "#.*" "" floor "${floor}")
+  string(REGEX MATCH "^([a-z_/]+):(.*)$" floor "${floor}")
+  separate_arguments(seen UNIX_COMMAND "${CMAKE_MATCH_2}")
+  set(BALLFLOW_SEES_${CMAKE_MATCH_1} ${seen})
+endforeach()
+
+# ballflow_include_root(var name folder): a folder in which only <name> can be found, a link to `folder`. With it on
+# the include path "<name>/x.hpp" is found and nothing of the folders beside it.
+function(ballflow_include_root var name folder)
+  string(REPLACE "/" "_" root ${folder})
+  set(root ${CMAKE_BINARY_DIR}/floors/${root})
+  file(MAKE_DIRECTORY ${root})
+  file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${folder} ${root}/${name} SYMBOLIC)
+  set(${var} ${root} PARENT_SCOPE)
+endfunction()
+
+# ballflow_engine_floor(name): the calling folder, as objects of the engine. Headers of floors below are found as
+# "base/quote.hpp", public ones as "ballflow/graph.hpp".
+function(ballflow_engine_floor name)
+  file(GLOB sources CONFIGURE_DEPENDS *.cpp)
+  set(floor ballflow_engine_${name})
+  add_library(${floor} OBJECT ${sources})
+  ballflow_include_root(root ${name} engine/src/${name})
+  target_include_directories(${floor} PUBLIC ${root})
+  target_link_libraries(${floor} PUBLIC ballflow_sdk TBB::tbb Threads::Threads PRIVATE OpenSSL::Crypto)
+  foreach(seen IN LISTS BALLFLOW_SEES_engine/${name})
+    if(NOT seen STREQUAL "engine/sdk")
+      string(REPLACE "engine/" "ballflow_engine_" seen ${seen})
+      target_link_libraries(${floor} PUBLIC ${seen})
+    endif()
+  endforeach()
+  target_sources(ballflow_engine PRIVATE $<TARGET_OBJECTS:${floor}>)
+endfunction()
+
+# ballflow_node_family(family LIBRARIES ...): the calling folder is a floor of nodes/.
 #
-# ballflow_geometry_<family>: every *.cpp that is no adapter and not excepted, a static library that sees nodes/ and no engine.
+# ballflow_geometry_<family>: every *.cpp that is no adapter, a library that sees what floors.txt says, and no engine.
 # ballflow_node_<family>: the adapters *.node.cpp and plugin.cpp, a plugin in lib/ballflow/<family>.so.
 function(ballflow_node_family family)
-  cmake_parse_arguments(ARG "" "" "LIBRARIES;EXCEPT" ${ARGN})
-  file(GLOB algorithms CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
-  file(GLOB adapters CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.node.cpp ${CMAKE_CURRENT_SOURCE_DIR}/plugin.cpp)
-  foreach(file IN LISTS ARG_EXCEPT)
-    list(REMOVE_ITEM algorithms ${CMAKE_CURRENT_SOURCE_DIR}/${file})
-  endforeach()
-  if(adapters)
-    list(REMOVE_ITEM algorithms ${adapters})
-  endif()
-  if(NOT algorithms)
-    return()
-  endif()
+  cmake_parse_arguments(ARG "" "" "LIBRARIES" ${ARGN})
+  file(GLOB algorithms CONFIGURE_DEPENDS *.cpp)
+  file(GLOB adapters CONFIGURE_DEPENDS *.node.cpp *.type.cpp plugin.cpp)
+  list(REMOVE_ITEM algorithms ${adapters})
+  list(FILTER adapters EXCLUDE REGEX "\\.type\\.cpp$")
   set(geometry ballflow_geometry_${family})
-  add_library(${geometry} STATIC ${algorithms})
-  target_include_directories(${geometry} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/nodes>
-    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/ballflow/geometry>)
-  target_link_libraries(${geometry} PUBLIC ${ARG_LIBRARIES})
+  set(libraries ${ARG_LIBRARIES})
+  foreach(seen IN LISTS BALLFLOW_SEES_nodes/${family})
+    string(REPLACE "nodes/" "ballflow_geometry_" seen ${seen})
+    list(APPEND libraries ${seen})
+  endforeach()
+  ballflow_include_root(root ${family} nodes/${family})
+  set(visible $<BUILD_INTERFACE:${root}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/ballflow/geometry>)
+  if(algorithms)
+    add_library(${geometry} STATIC ${algorithms})
+    target_include_directories(${geometry} PUBLIC ${visible})
+    target_link_libraries(${geometry} PUBLIC ${libraries})
+  else()
+    add_library(${geometry} INTERFACE)
+    target_include_directories(${geometry} INTERFACE ${visible})
+    target_link_libraries(${geometry} INTERFACE ${libraries})
+  endif()
   set_target_properties(${geometry} PROPERTIES EXPORT_NAME geometry_${family})
+  target_link_libraries(ballflow_geometry INTERFACE ${geometry})
   set_property(GLOBAL APPEND PROPERTY BALLFLOW_GEOMETRY_TARGETS ${geometry})
   if(adapters)
     set(plugin ballflow_node_${family})
@@ -56,6 +99,30 @@ function(ballflow_node_family family)
     target_link_options(${plugin} PRIVATE -Wl,--no-undefined)
     set_property(GLOBAL APPEND PROPERTY BALLFLOW_PLUGIN_TARGETS ${plugin})
   endif()
+endfunction()
+
+# ballflow_tool_floor(name folder LIBRARIES ... SOURCES ...): a folder of tools/ballflow as a library; the floors
+# that it sees come from floors.txt, libraries of others from LIBRARIES.
+function(ballflow_tool_floor name folder)
+  cmake_parse_arguments(ARG "" "" "LIBRARIES;SOURCES" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${ARG_SOURCES})
+  set(floor ballflow_${name})
+  add_library(${floor} STATIC ${sources})
+  string(REGEX REPLACE "/.*" "" top ${folder})
+  ballflow_include_root(root ${top} tools/ballflow/${top})
+  target_include_directories(${floor} PUBLIC ${root})
+  foreach(seen IN LISTS BALLFLOW_SEES_tools/${folder})
+    if(seen MATCHES "^engine/")
+      target_link_libraries(${floor} PUBLIC ballflow_engine)
+    elseif(seen STREQUAL "nodes/types")
+      target_link_libraries(${floor} PUBLIC ballflow_artifact_types)
+    elseif(seen MATCHES "^nodes/(.*)")
+      target_link_libraries(${floor} PUBLIC ballflow_geometry_${CMAKE_MATCH_1})
+    elseif(seen MATCHES "([a-z]+)$")
+      target_link_libraries(${floor} PUBLIC ballflow_${CMAKE_MATCH_1})
+    endif()
+  endforeach()
+  target_link_libraries(${floor} PRIVATE ${ARG_LIBRARIES})
 endfunction()
 
 # ballflow_test(name LIBRARIES ...): one executable of every *.cpp in the calling folder; each TEST is a

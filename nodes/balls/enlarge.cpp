@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "poles/local_feature_size.hpp"
+#include "search/local_feature_size.hpp"
 
 namespace ballflow::geometry {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "balls/pole_bound.hpp"
 #include "balls/power_growth.hpp"
+#include "base/monitor.hpp"
 #include "types/balls.hpp"
 #include "types/growth.hpp"
-#include "types/monitor.hpp"
 #include "types/point_set.hpp"
 #include "types/pole_set.hpp"
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-#include "types/nearest_tree.hpp"
+#include "search/nearest_tree.hpp"
 
 namespace ballflow::geometry {
 

@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include "base/monitor.hpp"
 #include "types/balls.hpp"
 #include "types/local_feature_size.hpp"
-#include "types/monitor.hpp"
 
 namespace ballflow::geometry {
 

@@ -11,11 +11,11 @@
 #include <string>
 #include <utility>
 
-#include "shape/alpha_classes.hpp"
-#include "shape/gabriel_points.hpp"
-#include "shape/inclusion_homology.hpp"
-#include "shape/regular_cells.hpp"
-#include "types/nearest_tree.hpp"
+#include "homology/inclusion_homology.hpp"
+#include "power/alpha_classes.hpp"
+#include "power/gabriel_points.hpp"
+#include "power/regular_cells.hpp"
+#include "search/nearest_tree.hpp"
 
 namespace ballflow::geometry {
 namespace {

@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "shape/alpha_shape.hpp"
+#include "base/monitor.hpp"
+#include "power/alpha_shape.hpp"
 #include "types/balls.hpp"
 #include "types/growth.hpp"
-#include "types/monitor.hpp"
 
 namespace ballflow::geometry {
 

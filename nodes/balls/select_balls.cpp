@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "types/monitor.hpp"
+#include "base/monitor.hpp"
 
 namespace ballflow::geometry {
 

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/monitor.hpp"
 #include "types/bisection.hpp"
 #include "types/cover_state.hpp"
-#include "types/monitor.hpp"
 
 namespace ballflow::geometry {
 

@@ -14,8 +14,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/monitor.hpp"
 #include "types/cover_state.hpp"
-#include "types/monitor.hpp"
 
 namespace ballflow::geometry {
 

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/monitor.hpp"
 #include "cover/residual.hpp"
 #include "types/cover_state.hpp"
-#include "types/monitor.hpp"
 
 namespace ballflow::geometry {
 

@@ -15,9 +15,9 @@
 #include <utility>
 #include <vector>
 
-#include "cover/membership.hpp"
 #include "cover/residual.hpp"
-#include "cover/sample_tree.hpp"
+#include "search/membership.hpp"
+#include "search/sample_tree.hpp"
 
 namespace ballflow::geometry {
 namespace {

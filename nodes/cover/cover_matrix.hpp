@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
+#include "base/monitor.hpp"
 #include "types/balls.hpp"
 #include "types/cover_state.hpp"
-#include "types/monitor.hpp"
 #include "types/point_set.hpp"
 
 namespace ballflow::geometry {

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
+#include "base/monitor.hpp"
 #include "types/cover_state.hpp"
-#include "types/monitor.hpp"
 
 namespace ballflow::geometry {
 

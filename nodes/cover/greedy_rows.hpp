@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/monitor.hpp"
 #include "cover/residual.hpp"
-#include "types/monitor.hpp"
 
 namespace ballflow::geometry {
 

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
+#include "base/monitor.hpp"
 #include "cover/ip_solver.hpp"
 #include "types/cover_state.hpp"
-#include "types/monitor.hpp"
 
 namespace ballflow::geometry {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/monitor.hpp"
 #include "cover/residual.hpp"
-#include "types/monitor.hpp"
 
 namespace ballflow::geometry {
 

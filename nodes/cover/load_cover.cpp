@@ -9,9 +9,9 @@
 
 #include "cover/cover_matrix.hpp"
 #include "cover/residual.hpp"
-#include "sample/file_content.hpp"
-#include "sample/load_balls.hpp"
-#include "sample/text_cursor.hpp"
+#include "io/file_content.hpp"
+#include "io/load_balls.hpp"
+#include "io/text_cursor.hpp"
 
 namespace ballflow::geometry {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
+#include "base/monitor.hpp"
 #include "types/balls.hpp"
 #include "types/cover_state.hpp"
-#include "types/monitor.hpp"
 #include "types/point_set.hpp"
 
 namespace ballflow::geometry {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "base/monitor.hpp"
 #include "types/cover_state.hpp"
-#include "types/monitor.hpp"
 
 namespace ballflow::geometry {
 

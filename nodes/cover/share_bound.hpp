@@ -1,8 +1,8 @@
 // The share bound (Kornberger 2010, Theorem 3.8).
 #pragma once
 
+#include "base/monitor.hpp"
 #include "types/cover_state.hpp"
-#include "types/monitor.hpp"
 
 namespace ballflow::geometry {
 

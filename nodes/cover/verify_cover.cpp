@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cover/cover_matrix.hpp"
-#include "cover/membership.hpp"
+#include "search/membership.hpp"
 
 namespace ballflow::geometry {
 namespace {

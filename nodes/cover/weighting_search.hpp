@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/monitor.hpp"
 #include "cover/components.hpp"
-#include "types/monitor.hpp"
 
 namespace ballflow::geometry {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "minkowski/nearest_point.hpp"
+#include "exact/nearest_point.hpp"
 
 namespace ballflow::geometry {
 namespace {

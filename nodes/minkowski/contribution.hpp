@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "types/vec3.hpp"
+#include "base/vec3.hpp"
 
 namespace ballflow::geometry {
 

@@ -5,10 +5,10 @@
 // with the square rounded.
 #pragma once
 
+#include "base/monitor.hpp"
 #include "types/balls.hpp"
 #include "types/comparison.hpp"
 #include "types/minkowski_report.hpp"
-#include "types/monitor.hpp"
 
 namespace ballflow::geometry {
 

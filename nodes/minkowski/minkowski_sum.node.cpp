@@ -2,8 +2,8 @@
 
 #include <ballflow/sdk.hpp>
 
+#include "exact/cgal_version.hpp"
 #include "types/artifact_types.hpp"
-#include "types/cgal_version.hpp"
 
 namespace ballflow::nodes {
 namespace {

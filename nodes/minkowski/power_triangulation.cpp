@@ -12,8 +12,8 @@
 #include <iterator>
 #include <utility>
 
+#include "base/space_order.hpp"
 #include "minkowski/contribution.hpp"
-#include "minkowski/space_order.hpp"
 
 namespace ballflow::geometry {
 namespace {

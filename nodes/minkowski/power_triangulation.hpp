@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include "base/monitor.hpp"
 #include "minkowski/sums.hpp"
-#include "types/monitor.hpp"
 
 namespace ballflow::geometry {
 

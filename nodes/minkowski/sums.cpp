@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "minkowski/space_order.hpp"
+#include "base/space_order.hpp"
 
 namespace ballflow::geometry {
 namespace {

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/monitor.hpp"
+#include "base/vec3.hpp"
 #include "types/balls.hpp"
-#include "types/monitor.hpp"
-#include "types/vec3.hpp"
 
 namespace ballflow::geometry {
 

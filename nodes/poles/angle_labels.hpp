@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "types/monitor.hpp"
+#include "base/monitor.hpp"
 #include "types/pole_set.hpp"
 
 namespace ballflow::geometry {

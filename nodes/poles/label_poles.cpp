@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "poles/angle_labels.hpp"
-#include "poles/winding_number.hpp"
+#include "search/winding_number.hpp"
 
 namespace ballflow::geometry {
 

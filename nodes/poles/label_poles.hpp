@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
+#include "base/monitor.hpp"
 #include "types/balls.hpp"
-#include "types/monitor.hpp"
 #include "types/pole_set.hpp"
 #include "types/triangle_mesh.hpp"
 

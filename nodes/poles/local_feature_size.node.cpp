@@ -1,4 +1,4 @@
-#include "poles/local_feature_size.hpp"
+#include "search/local_feature_size.hpp"
 
 #include <ballflow/sdk.hpp>
 

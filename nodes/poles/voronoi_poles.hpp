@@ -1,7 +1,7 @@
 // Poles of the Voronoi diagram of a sample.
 #pragma once
 
-#include "types/monitor.hpp"
+#include "base/monitor.hpp"
 #include "types/point_set.hpp"
 #include "types/pole_set.hpp"
 

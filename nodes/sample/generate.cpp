@@ -5,10 +5,10 @@
 #include <cmath>
 #include <utility>
 
+#include "base/circle.hpp"
+#include "io/text_cursor.hpp"
 #include "sample/block_mesh.hpp"
-#include "sample/circle.hpp"
 #include "sample/implicit_mesh.hpp"
-#include "sample/text_cursor.hpp"
 #include "sample/tube_mesh.hpp"
 
 namespace ballflow::geometry {

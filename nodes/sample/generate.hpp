@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "types/monitor.hpp"
+#include "base/monitor.hpp"
 #include "types/triangle_mesh.hpp"
 
 namespace ballflow::geometry {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "types/monitor.hpp"
+#include "base/monitor.hpp"
 #include "types/triangle_mesh.hpp"
 
 namespace ballflow::geometry {

@@ -1,4 +1,4 @@
-#include "sample/load_balls.hpp"
+#include "io/load_balls.hpp"
 
 #include <ballflow/sdk.hpp>
 

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "sample/affine_span.hpp"
+#include "exact/affine_span.hpp"
 #include "sample/generate.hpp"
 
 namespace ballflow::geometry {

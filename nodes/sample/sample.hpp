@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "sample/read_mesh.hpp"
+#include "io/read_mesh.hpp"
 #include "sample/surface_sample.hpp"
 
 namespace ballflow::geometry {

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "sample/first_equal.hpp"
-#include "sample/random.hpp"
+#include "base/first_equal.hpp"
+#include "base/random.hpp"
 
 namespace ballflow::geometry {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "types/monitor.hpp"
+#include "base/monitor.hpp"
 #include "types/point_set.hpp"
 #include "types/triangle_mesh.hpp"
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "sample/circle.hpp"
+#include "base/circle.hpp"
 
 namespace ballflow::geometry {
 namespace {

@@ -6,6 +6,7 @@
 #include <ballflow/sdk.hpp>
 #include <chrono>
 
+#include "base/monitor.hpp"
 #include "types/balls.hpp"
 #include "types/bisection.hpp"
 #include "types/comparison.hpp"
@@ -16,7 +17,6 @@
 #include "types/mass_properties.hpp"
 #include "types/medial_axis.hpp"
 #include "types/minkowski_report.hpp"
-#include "types/monitor.hpp"
 #include "types/point_set.hpp"
 #include "types/pole_set.hpp"
 #include "types/simplicial_complex.hpp"

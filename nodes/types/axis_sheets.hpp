@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/monitor.hpp"
 #include "types/medial_axis.hpp"
-#include "types/monitor.hpp"
 
 namespace ballflow::geometry {
 

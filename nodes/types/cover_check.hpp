@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "types/array.hpp"
+#include "base/array.hpp"
 
 namespace ballflow::geometry {
 

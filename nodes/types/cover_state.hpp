@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "types/array.hpp"
+#include "base/array.hpp"
 
 namespace ballflow::geometry {
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/disjoint_sets.hpp"
 #include "types/axis_sheets.hpp"
-#include "types/disjoint_sets.hpp"
 #include "types/polygon_edges.hpp"
 
 namespace ballflow::geometry {

@@ -7,9 +7,9 @@
 #include <span>
 #include <string>
 
-#include "types/array.hpp"
-#include "types/monitor.hpp"
-#include "types/vec3.hpp"
+#include "base/array.hpp"
+#include "base/monitor.hpp"
+#include "base/vec3.hpp"
 
 namespace ballflow::geometry {
 

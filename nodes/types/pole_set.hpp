@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "types/array.hpp"
-#include "types/vec3.hpp"
+#include "base/array.hpp"
+#include "base/vec3.hpp"
 
 namespace ballflow::geometry {
 

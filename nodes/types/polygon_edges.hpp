@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "base/monitor.hpp"
 #include "types/medial_axis.hpp"
-#include "types/monitor.hpp"
 
 namespace ballflow::geometry {
 

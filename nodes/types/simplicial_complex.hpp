@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string>
 
-#include "types/array.hpp"
-#include "types/vec3.hpp"
+#include "base/array.hpp"
+#include "base/vec3.hpp"
 
 namespace ballflow::geometry {
 

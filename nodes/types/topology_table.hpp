@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "types/array.hpp"
+#include "base/array.hpp"
 
 namespace ballflow::geometry {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "types/disjoint_sets.hpp"
+#include "base/disjoint_sets.hpp"
 
 namespace ballflow::geometry {
 namespace {

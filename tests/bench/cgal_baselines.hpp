@@ -6,8 +6,8 @@
 #include <memory>
 #include <span>
 
+#include "base/vec3.hpp"
 #include "types/balls.hpp"
-#include "types/vec3.hpp"
 
 namespace ballflow::bench {
 

@@ -23,6 +23,7 @@
 #include <string>
 #include <vector>
 
+#include "axis/medial_axis.hpp"
 #include "balls/enlarge.hpp"
 #include "balls/select_balls.hpp"
 #include "cgal_baselines.hpp"
@@ -30,10 +31,9 @@
 #include "cover/greedy.hpp"
 #include "poles/label_poles.hpp"
 #include "poles/voronoi_poles.hpp"
+#include "power/alpha_classes.hpp"
+#include "power/alpha_shape.hpp"
 #include "sample/sample.hpp"
-#include "shape/alpha_classes.hpp"
-#include "shape/alpha_shape.hpp"
-#include "shape/medial_axis.hpp"
 #include "test_data.hpp"
 
 namespace ballflow::bench {

@@ -4,7 +4,7 @@
 #include <exception>
 
 #include "ballflow/text.hpp"
-#include "commands.hpp"
+#include "commands/commands.hpp"
 
 int main(int argc, char** argv) {
   using namespace ballflow;

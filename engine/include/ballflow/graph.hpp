@@ -44,6 +44,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -172,5 +173,15 @@ Dag load_graph(const std::string& file, const Registry& registry, const std::vec
 Dag parse_graph(const std::string& text, const std::string& file, const Registry& registry,
                 const std::vector<Override>& overrides = {}, const SweepOptions& sweep = {},
                 const std::map<std::string, ArtifactPtr>& given = {});
+
+/// Which nodes the outputs of the graph need; as Dag::nodes.
+std::vector<bool> needed_nodes(const Dag& dag);
+/// Which nodes these need, themselves included.
+std::vector<bool> needed_nodes(const Dag& dag, const std::set<std::size_t>& targets);
+
+/// The node of this path, or all nodes of this subgraph ("prune" has "prune/reduce" and "prune/greedy"). In a
+/// sweep "prune" means that of every variant, and the name of a variant all its nodes.
+/// Throws Error (code usage) with the nearest path when there is none.
+std::set<std::size_t> nodes_named(const Dag& dag, const std::string& path);
 
 }  // namespace ballflow

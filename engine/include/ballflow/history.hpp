@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-#include "ballflow/run.hpp"
+#include "ballflow/json.hpp"
 #include "ballflow/store.hpp"
 
 namespace ballflow {
@@ -32,8 +32,7 @@ std::string new_run_id(const std::string& graph_file);
 std::string start_of_run(const std::string& id);
 
 /// Records a finished run. False when the store cannot be written or has a run of this name.
-bool save_run(Store& store, const std::string& id, const Dag& dag, const RunResult& result,
-              const Json& report);
+bool save_run(Store& store, const std::string& id, const Manifests& manifests, const Json& report);
 
 /// What the beginning of a report says.
 struct RunInfo {

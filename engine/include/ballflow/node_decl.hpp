@@ -5,18 +5,15 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "ballflow/artifact.hpp"
+#include "ballflow/json.hpp"
 #include "ballflow/plugin.h"
 
 namespace ballflow {
-
-using Json = nlohmann::ordered_json;
 
 struct ArrayDecl {
   std::string name, dtype, doc;

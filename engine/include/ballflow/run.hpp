@@ -69,8 +69,8 @@ struct RunResult {
   std::vector<NodeResult> nodes;  // as Dag::nodes
 };
 
-/// Key manifests of an earlier run by node path: what reasons are compared with.
-using Manifests = std::map<std::string, std::string>;
+/// The key manifests of a run, for the history.
+Manifests manifests_of(const Dag& dag, const RunResult& result);
 
 /// One run of a DAG. Only nodes that a graph output needs are looked at; only artifacts that a running
 /// node needs are read.
@@ -123,16 +123,6 @@ std::optional<ActionEntry> find_entry(Store& store, const NodeDeclaration& decl,
 
 /// What an entry says of one output.
 OutputEntry output_entry(const std::string& port, const Artifact& artifact);
-
-/// Which nodes the outputs of the graph need; as Dag::nodes.
-std::vector<bool> needed_nodes(const Dag& dag);
-/// Which nodes these need, themselves included.
-std::vector<bool> needed_nodes(const Dag& dag, const std::set<std::size_t>& targets);
-
-/// The node of this path, or all nodes of this subgraph ("prune" has "prune/reduce" and "prune/greedy"). In a
-/// sweep "prune" means that of every variant, and the name of a variant all its nodes.
-/// Throws Error (code usage) with the nearest path when there is none.
-std::set<std::size_t> nodes_named(const Dag& dag, const std::string& path);
 
 /// A budget for the estimates of running nodes: "8G", bytes, or "50%" of the memory of this machine. Empty
 /// for anything else.

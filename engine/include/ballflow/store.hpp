@@ -28,6 +28,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -59,6 +60,9 @@ struct ActionEntry {
   std::vector<std::string> warnings;  // shown again on every hit
   double seconds = 0, cpu_seconds = 0;
 };
+
+/// Key manifests of an earlier run by node path: what reasons are compared with.
+using Manifests = std::map<std::string, std::string>;
 
 struct StoreOptions {
   std::string root;  // empty: no store, everything is a miss

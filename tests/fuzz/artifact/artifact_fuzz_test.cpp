@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ballflow/artifact.hpp"
+#include "ballflow/canonical_json.hpp"
 
 namespace ballflow {
 namespace {

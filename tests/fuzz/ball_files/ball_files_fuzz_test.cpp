@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "sample/load_balls.hpp"
-#include "sample/random.hpp"
+#include "base/random.hpp"
+#include "io/load_balls.hpp"
 
 namespace ballflow::geometry {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "base/random.hpp"
 #include "cover/load_cover.hpp"
 #include "cover/save_cover.hpp"
-#include "sample/random.hpp"
 
 namespace ballflow::geometry {
 namespace {

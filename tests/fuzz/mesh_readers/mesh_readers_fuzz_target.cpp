@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sample/read_mesh.hpp"
+#include "io/read_mesh.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 

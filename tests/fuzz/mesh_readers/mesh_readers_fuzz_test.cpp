@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "../../unit/nodes/sample/mesh_files.hpp"
-#include "sample/random.hpp"
-#include "sample/read_mesh.hpp"
+#include "base/random.hpp"
+#include "io/read_mesh.hpp"
+#include "mesh_files.hpp"
 #include "test_data.hpp"
 
 namespace ballflow::geometry {

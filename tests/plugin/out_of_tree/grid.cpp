@@ -1,7 +1,7 @@
 // An artifact type of somebody else, a node that makes it and one that takes it.
 #include <ballflow/sdk.hpp>
 
-#include "types/array.hpp"
+#include "base/array.hpp"
 
 using namespace ballflow;
 

@@ -9,19 +9,19 @@
 #include <string>
 #include <vector>
 
+#include "axis/medial_axis.hpp"
 #include "balls/enlarge.hpp"
 #include "cover/cover_matrix.hpp"
 #include "cover/greedy.hpp"
 #include "gudhi_oracle.hpp"
+#include "homology/inclusion_homology.hpp"
 #include "poles/label_poles.hpp"
 #include "poles/voronoi_poles.hpp"
+#include "power/alpha_shape.hpp"
 #include "sample/sample.hpp"
-#include "shape/alpha_shape.hpp"
-#include "shape/inclusion_homology.hpp"
-#include "shape/medial_axis.hpp"
-#include "shape/topology.hpp"
-#include "shape/topology_repair.hpp"
 #include "test_data.hpp"
+#include "topology/topology.hpp"
+#include "topology/topology_repair.hpp"
 
 namespace ballflow::geometry {
 namespace {

@@ -1,7 +1,7 @@
 // CoverState: what is left of its matrix (scp, lp), what was chosen (csv).
 #include "cover/save_cover.hpp"
 #include "export/format_table.hpp"
-#include "export/typed.hpp"
+#include "show/typed.hpp"
 #include "types/artifact_types.hpp"
 
 namespace ballflow {

@@ -9,7 +9,7 @@
 #include "ballflow/artifact.hpp"
 #include "export/formats.hpp"
 #include "export/output_file.hpp"
-#include "export/typed.hpp"
+#include "show/typed.hpp"
 
 namespace ballflow {
 

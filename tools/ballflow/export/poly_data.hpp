@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "types/array.hpp"
-#include "types/vec3.hpp"
+#include "base/array.hpp"
+#include "base/vec3.hpp"
 
 namespace ballflow {
 

@@ -1,6 +1,6 @@
 // TopologyTable: one line per stage (csv).
 #include "export/format_table.hpp"
-#include "export/typed.hpp"
+#include "show/typed.hpp"
 #include "types/artifact_types.hpp"
 
 namespace ballflow {

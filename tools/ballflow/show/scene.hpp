@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "ballflow/artifact.hpp"
-#include "types/array.hpp"
+#include "base/array.hpp"
+#include "base/vec3.hpp"
 #include "types/point_set.hpp"
 #include "types/triangle_mesh.hpp"
-#include "types/vec3.hpp"
 
 namespace ballflow::show {
 

@@ -1,7 +1,7 @@
 // The algorithms as a C++ library, without the engine: three balls in a row, of which two meet.
 #include <cstdio>
 
-#include "shape/alpha_shape.hpp"
+#include "power/alpha_shape.hpp"
 
 int main() {
   using namespace ballflow::geometry;

@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "ballflow/run.hpp"
+#include "run_nodes.hpp"
 #include "test_data.hpp"
-#include "toy_nodes.hpp"
 
 namespace ballflow {
 namespace {

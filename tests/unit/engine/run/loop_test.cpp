@@ -5,8 +5,8 @@
 
 #include "ballflow/report.hpp"
 #include "ballflow/run.hpp"
+#include "run_nodes.hpp"
 #include "test_data.hpp"
-#include "toy_nodes.hpp"
 
 namespace ballflow {
 namespace {

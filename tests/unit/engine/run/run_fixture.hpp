@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "ballflow/run.hpp"
+#include "run_nodes.hpp"
 #include "test_data.hpp"
-#include "toy_nodes.hpp"
 
 namespace ballflow {
 

@@ -291,7 +291,7 @@ TEST_F(RunTest, nonsense_of_a_node_reaches_nobody_raw) {
   EXPECT_EQ(result.status, ExitCode::ok);
   for (const double fraction : events.fractions) EXPECT_TRUE(fraction >= 0 && fraction <= 1) << fraction;
   const std::string id = new_run_id("babble.json");
-  EXPECT_TRUE(save_run(*cache, id, dag, result, run_report(id, dag, result)));
+  EXPECT_TRUE(save_run(*cache, id, manifests_of(dag, result), run_report(id, dag, result)));
   EXPECT_FALSE(latest_manifests(*cache, "babble.json").empty());
 }
 

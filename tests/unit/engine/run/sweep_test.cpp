@@ -6,8 +6,8 @@
 
 #include "ballflow/history.hpp"
 #include "ballflow/report.hpp"
+#include "run_nodes.hpp"
 #include "test_data.hpp"
-#include "toy_nodes.hpp"
 
 namespace ballflow {
 namespace {
@@ -145,7 +145,7 @@ TEST_F(SweepRun, a_thousand_variants_cost_milliseconds) {
   const RunResult second = run(dag, store());
   const double again = cpu();
   const std::string id = new_run_id("g.json");
-  EXPECT_TRUE(save_run(*store(), id, dag, second, run_report(id, dag, second)));
+  EXPECT_TRUE(save_run(*store(), id, manifests_of(dag, second), run_report(id, dag, second)));
   const double recorded = cpu();
   EXPECT_EQ(count(first, NodeStatus::run), 2002u);
   EXPECT_EQ(count(second, NodeStatus::hit), 2002u);

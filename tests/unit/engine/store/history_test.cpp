@@ -40,7 +40,7 @@ struct HistoryTest : testing::Test {
   }
 
   bool save(Store& store, const std::string& id, const std::string& graph) {
-    return save_run(store, id, dag, result, report_of(id, graph));
+    return save_run(store, id, manifests_of(dag, result), report_of(id, graph));
   }
 
   /// An id as it is made at second `second` of some day.
@@ -226,7 +226,7 @@ TEST_F(HistoryTest, the_collector_removes_the_oldest_records_but_not_the_latest)
   std::string last;
   for (int i = 0; i < 30; ++i) {
     last = id_at("a.json", i);
-    save_run(*store, last, dag, result, run_report(last, dag, result));
+    save_run(*store, last, manifests_of(dag, result), run_report(last, dag, result));
   }
   const Collected before = collect(*store, {no_limit, no_limit, true, true});
   EXPECT_GT(before.bytes_before, 30u * 20000u) << "records count as content of the store";
@@ -267,7 +267,7 @@ TEST_F(HistoryTest, a_killed_recorder_leaves_nothing_that_counts) {
       const auto store = Store::open({root, false});
       for (;;) {
         const std::string id = new_run_id("a.json");
-        save_run(*store, id, dag, result, run_report(id, dag, result));
+        save_run(*store, id, manifests_of(dag, result), run_report(id, dag, result));
       }
     });
     // In the middle of the second record or of a later one, however slow the machine is.

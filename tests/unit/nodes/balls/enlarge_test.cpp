@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "types/monitor.hpp"
+#include "base/monitor.hpp"
 
 namespace ballflow::geometry {
 namespace {

@@ -7,8 +7,8 @@
 #include <random>
 
 #include "balls/enlarge.hpp"
-#include "poles/local_feature_size.hpp"
 #include "poles/voronoi_poles.hpp"
+#include "search/local_feature_size.hpp"
 
 namespace ballflow::geometry {
 namespace {

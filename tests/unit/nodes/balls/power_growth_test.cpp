@@ -9,8 +9,8 @@
 
 #include "poles/label_poles.hpp"
 #include "poles/voronoi_poles.hpp"
-#include "shape/gabriel_points.hpp"
-#include "shape/regular_cells.hpp"
+#include "power/gabriel_points.hpp"
+#include "power/regular_cells.hpp"
 
 namespace ballflow::geometry {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "types/monitor.hpp"
+#include "base/monitor.hpp"
 
 namespace ballflow::geometry {
 namespace {

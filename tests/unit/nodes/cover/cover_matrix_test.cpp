@@ -6,8 +6,8 @@
 
 #include <string>
 
-#include "cover/membership.hpp"
 #include "cover_oracle.hpp"
+#include "search/membership.hpp"
 
 namespace ballflow::geometry {
 namespace {

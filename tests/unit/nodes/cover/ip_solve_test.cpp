@@ -13,7 +13,7 @@
 #include "cover/reduce.hpp"
 #include "cover/verify_cover.hpp"
 #include "cover_oracle.hpp"
-#include "sample/read_mesh.hpp"
+#include "io/read_mesh.hpp"
 #include "test_data.hpp"
 
 namespace ballflow::geometry {

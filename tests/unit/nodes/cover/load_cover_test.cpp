@@ -9,7 +9,7 @@
 #include "cover/save_cover.hpp"
 #include "cover/verify_cover.hpp"
 #include "cover_oracle.hpp"
-#include "sample/read_mesh.hpp"
+#include "io/read_mesh.hpp"
 #include "test_data.hpp"
 
 namespace ballflow::geometry {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "contribution_oracle.hpp"
+#include "measure/compare.hpp"
 #include "sample/generate.hpp"
-#include "shape/compare.hpp"
 
 namespace ballflow::geometry {
 namespace {

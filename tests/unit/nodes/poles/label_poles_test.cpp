@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "io/read_mesh.hpp"
 #include "poles/voronoi_poles.hpp"
-#include "sample/read_mesh.hpp"
 #include "shapes.hpp"
 #include "test_data.hpp"
 

@@ -13,7 +13,7 @@
 #include <string>
 #include <tuple>
 
-#include "sample/read_mesh.hpp"
+#include "io/read_mesh.hpp"
 #include "shapes.hpp"
 #include "test_data.hpp"
 

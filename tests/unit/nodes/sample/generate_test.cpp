@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sample/circle.hpp"
+#include "base/circle.hpp"
 #include "sample/sample.hpp"
 #include "types/point_set.hpp"
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/random.hpp"
 #include "mesh_files.hpp"
 #include "sample/generate.hpp"
-#include "sample/random.hpp"
 #include "sample/sample.hpp"
 #include "test_data.hpp"
 

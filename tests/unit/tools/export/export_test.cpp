@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "ballflow/error.hpp"
-#include "export/typed.hpp"
+#include "show/typed.hpp"
 #include "samples.hpp"
 #include "sealed.hpp"
 #include "test_data.hpp"

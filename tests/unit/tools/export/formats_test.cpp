@@ -9,7 +9,7 @@
 #include "ballflow/error.hpp"
 #include "check_exports.hpp"
 #include "export/export.hpp"
-#include "sample/load_balls.hpp"
+#include "io/load_balls.hpp"
 #include "samples.hpp"
 #include "sealed.hpp"
 #include "test_data.hpp"

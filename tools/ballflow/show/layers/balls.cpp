@@ -1,5 +1,5 @@
 // Balls: all of them, with their radii and their order.
-#include "export/typed.hpp"
+#include "show/typed.hpp"
 #include "show/layer_table.hpp"
 #include "show/layers/attributes.hpp"
 #include "types/artifact_types.hpp"

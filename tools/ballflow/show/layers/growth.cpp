@@ -1,5 +1,5 @@
 // Growth: the grown balls, coloured by what stopped them, or by how much they have grown.
-#include "export/typed.hpp"
+#include "show/typed.hpp"
 #include "show/layer_table.hpp"
 #include "show/layers/attributes.hpp"
 #include "types/artifact_types.hpp"

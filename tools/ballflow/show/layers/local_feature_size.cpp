@@ -1,5 +1,5 @@
 // LocalFeatureSize: the samples, coloured by their distance to the nearest pole.
-#include "export/typed.hpp"
+#include "show/typed.hpp"
 #include "show/layer_table.hpp"
 #include "types/artifact_types.hpp"
 

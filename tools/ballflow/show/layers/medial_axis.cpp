@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "export/typed.hpp"
+#include "show/typed.hpp"
 #include "show/layer_table.hpp"
 #include "show/layers/attributes.hpp"
 #include "types/artifact_types.hpp"

@@ -1,5 +1,5 @@
 // PointSet: its points.
-#include "export/typed.hpp"
+#include "show/typed.hpp"
 #include "show/layer_table.hpp"
 #include "types/artifact_types.hpp"
 

@@ -2,7 +2,7 @@
 // both as balls, hidden at first.
 #include <string>
 
-#include "export/typed.hpp"
+#include "show/typed.hpp"
 #include "show/layer_table.hpp"
 #include "show/layers/attributes.hpp"
 #include "types/artifact_types.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "export/typed.hpp"
+#include "show/typed.hpp"
 #include "show/layer_table.hpp"
 #include "show/layers/attributes.hpp"
 #include "types/artifact_types.hpp"

@@ -1,5 +1,5 @@
 // TriangleMesh: its triangles, translucent at first so that what is inside can be seen.
-#include "export/typed.hpp"
+#include "show/typed.hpp"
 #include "show/layer_table.hpp"
 #include "types/artifact_types.hpp"
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "ballflow/error.hpp"
-#include "sample/circle.hpp"
+#include "base/circle.hpp"
 #include "show/picture/number.hpp"
 
 namespace ballflow::show {

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "types/vec3.hpp"
+#include "base/vec3.hpp"
 
 namespace ballflow::show {
 

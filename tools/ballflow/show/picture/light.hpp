@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
+#include "base/vec3.hpp"
 #include "show/palette.hpp"
-#include "types/vec3.hpp"
 
 namespace ballflow::show {
 

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "base/monitor.hpp"
 #include "show/palette.hpp"
 #include "show/picture/camera.hpp"
 #include "show/picture/png.hpp"
 #include "show/scene.hpp"
-#include "types/monitor.hpp"
 
 namespace ballflow::show {
 

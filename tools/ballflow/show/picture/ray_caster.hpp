@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "base/monitor.hpp"
 #include "show/picture/intersect.hpp"
-#include "types/monitor.hpp"
 
 namespace ballflow::show {
 

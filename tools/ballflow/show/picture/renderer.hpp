@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
+#include "base/monitor.hpp"
 #include "show/picture/camera.hpp"
 #include "show/picture/light.hpp"
 #include "show/picture/ray_caster.hpp"
 #include "show/picture/surfaces.hpp"
-#include "types/monitor.hpp"
 
 namespace ballflow::show {
 

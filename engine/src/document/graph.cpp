@@ -1,0 +1,130 @@
+#include "ballflow/graph.hpp"
+
+#include "document/expand.hpp"
+#include "document/sweep.hpp"
+
+namespace ballflow {
+
+const DagNode* Dag::find(const std::string& path) const {
+  for (const DagNode& node : nodes) {
+    if (node.path == path) return &node;
+  }
+  return nullptr;
+}
+
+namespace {
+
+/// Findings of variants, each once, with a note of the first variant where it does not concern all.
+class VariantFindings {
+ public:
+  void add(const std::string& variant, std::vector<Diagnostic> found) {
+    ++variants_;
+    for (Diagnostic& finding : found) {
+      const std::string key = finding.file + '\0' + std::to_string(finding.line) + ':' +
+                              std::to_string(finding.column) + '\0' + finding.message;
+      Tally& tally = tallies_.try_emplace(key, Tally{std::move(finding), variant, 0}).first->second;
+      ++tally.count;
+    }
+  }
+  void move_to(Findings& findings) {
+    for (auto& [key, tally] : tallies_) {
+      if (tally.count < variants_) {
+        std::string& hint = tally.finding.hint;
+        hint += (hint.empty() ? "" : "; ") + std::string("in the variant ") + tally.variant;
+      }
+      findings.add(std::move(tally.finding));
+    }
+  }
+
+ private:
+  struct Tally {
+    Diagnostic finding;
+    std::string variant;
+    std::size_t count;
+  };
+  std::map<std::string, Tally> tallies_;
+  std::size_t variants_ = 0;
+};
+
+// Of all variants before they are merged; a graph without a sweep may have a tenth.
+constexpr std::size_t max_expanded = 10 * max_instances;
+constexpr std::size_t enough_failures = 20;  // variants that are wrong before the others are not looked at
+
+Dag merge_variants(const GraphFile& top, GraphFiles& files, const Registry& registry,
+                   const std::vector<const Setting*>& sets, const Sweep& sweep, Findings& findings) {
+  VariantMerger merger(sweep);
+  VariantFindings all;
+  std::size_t failures = 0, expanded = 0;
+  for (const Sweep::Choice& choice : sweep.variants) {
+    std::vector<const Setting*> settings = sets;
+    for (std::size_t axis = 0; axis < choice.size(); ++axis)
+      settings.push_back(&sweep.axes[axis].values[choice[axis]]);
+    Findings found(&findings);
+    Expansion expansion;
+    expand(top, files, registry, settings, expansion, found);
+    Dag dag;
+    if (!expansion.abandoned) dag = connect(expansion, registry, {}, found);
+    if (found.failed()) {
+      ++failures;
+    } else if (failures == 0) {
+      merger.add(std::move(dag));
+    }
+    all.add(sweep.name_of(choice), found.take(files.names));
+    if (failures == enough_failures) break;
+    expanded += expansion.leaves.size() + expansion.scopes.size();
+    if (merger.nodes() <= max_instances && expanded <= max_expanded) continue;
+    findings.error(top, top.sweep ? top.sweep->offset : top.root.offset,
+                   "the sweep has " + std::to_string(sweep.variants.size()) + " variants with more than " +
+                       std::to_string(expanded > max_expanded ? max_expanded : max_instances) + " nodes",
+                   "take fewer values");
+    break;
+  }
+  all.move_to(findings);
+  return findings.failed() ? Dag() : merger.finish();
+}
+
+}  // namespace
+
+std::string base_path(const std::string& path) {
+  const std::size_t end = path.empty() || path[0] != '[' ? std::string::npos : path.find("]/");
+  return end == std::string::npos ? path : path.substr(end + 2);
+}
+
+Dag parse_graph(const std::string& text, const std::string& file, const Registry& registry,
+                const std::vector<Override>& overrides, const SweepOptions& options,
+                const std::map<std::string, ArtifactPtr>& given) {
+  Findings findings;
+  GraphFiles files(findings);
+  files.names.push_back(file);
+  std::vector<Setting> sets;
+  for (const Override& override_ : overrides) {
+    Setting& set = sets.emplace_back();
+    set.name = override_.name;
+    set.text = override_.value;
+    set.origin = "--set " + override_.name + "=" + override_.value;
+  }
+  std::vector<const Setting*> settings;
+  for (const Setting& set : sets) settings.push_back(&set);
+  Dag dag;
+  if (const auto top = read_graph_file(json_text::Source(file, text), findings)) {
+    if (const auto sweep = plan_sweep(*top, sets, options, findings)) {
+      dag = merge_variants(*top, files, registry, settings, *sweep, findings);
+    } else {
+      Expansion expansion;
+      expand(*top, files, registry, settings, expansion, findings);
+      if (!expansion.abandoned) dag = connect(expansion, registry, given, findings);
+    }
+  }
+  const bool failed = findings.failed();
+  std::vector<Diagnostic> all = findings.take(files.names);
+  if (failed) throw GraphError(std::move(all));
+  dag.warnings = std::move(all);
+  return dag;
+}
+
+Dag load_graph(const std::string& file, const Registry& registry, const std::vector<Override>& overrides,
+               const SweepOptions& sweep, const std::map<std::string, ArtifactPtr>& given) {
+  return parse_graph(read_text_file(file), file, registry, overrides, sweep, given);
+}
+
+}  // namespace ballflow

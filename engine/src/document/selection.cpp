@@ -1,0 +1,47 @@
+// Which nodes of a DAG a name or an output stands for.
+#include "ballflow/error.hpp"
+#include "ballflow/graph.hpp"
+
+namespace ballflow {
+
+std::vector<bool> needed_nodes(const Dag& dag, const std::set<std::size_t>& targets) {
+  std::vector<bool> needed(dag.nodes.size(), false);
+  for (const std::size_t target : targets) needed[target] = true;
+  for (std::size_t i = dag.nodes.size(); i-- > 0;) {  // topological order: consumers come later
+    if (!needed[i]) continue;
+    for (const auto& [port, edge] : dag.nodes[i].inputs) {
+      if (edge.node != loop_input) needed[edge.node] = true;
+    }
+  }
+  return needed;
+}
+
+std::vector<bool> needed_nodes(const Dag& dag) {
+  std::set<std::size_t> targets;
+  for (const DagOutput& output : dag.outputs) {
+    if (output.from.node != loop_input) targets.insert(output.from.node);
+  }
+  return needed_nodes(dag, targets);
+}
+
+std::set<std::size_t> nodes_named(const Dag& dag, const std::string& path) {
+  std::set<std::size_t> found;
+  std::vector<std::string> known;
+  for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
+    const std::string& node = dag.nodes[i].path;
+    known.push_back(node);
+    const auto is_or_below = [&path](const std::string& one) {
+      return one == path || one.rfind(path + "/", 0) == 0;
+    };
+    if (is_or_below(node) || is_or_below(base_path(node))) found.insert(i);
+  }
+  for (const Variant& variant : dag.variants) {
+    if (variant.name == path) found.insert(variant.nodes.begin(), variant.nodes.end());
+  }
+  if (!found.empty()) return found;
+  const std::string near = nearest(path, known);
+  throw Error(ExitCode::usage, dag.file + " has no node \"" + path + "\"",
+              near.empty() ? "\"ballflow plan\" lists the nodes" : "did you mean \"" + near + "\"?");
+}
+
+}  // namespace ballflow

@@ -1,0 +1,546 @@
+#include "document/sweep.hpp"
+
+#include <glob.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "base/quote.hpp"
+
+namespace ballflow {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t longest_label = 60, longest_name = 200;  // bytes; a file name has at most 255
+
+/// Cuts a text and marks it, so that different texts stay different.
+std::string cut(const std::string& text, std::size_t longest) {
+  if (text.size() <= longest) return text;
+  const std::string mark = "~" + sha256(text).hex().substr(0, 8);
+  std::size_t end = longest - mark.size();
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
+  return text.substr(0, end) + mark;
+}
+
+/// Text that can be part of a path of a node and of the name of a folder.
+std::string label_of(const std::string& text) {
+  std::string label;
+  for (const char c : printable(text)) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       (c & 0x80) != 0 || std::string_view("._-+%@:").find(c) != std::string_view::npos;
+    label += plain ? c : '_';
+  }
+  return cut(label, longest_label);
+}
+
+std::string text_of(const Setting& setting) {
+  return setting.value ? plain_text(*setting.value) : setting.text;
+}
+
+/// Labels of the values of an axis. Of paths the file names, where those differ.
+std::vector<std::string> labels_of(const Sweep::Axis& axis, bool files) {
+  std::vector<std::string> labels;
+  std::set<std::string> names;
+  for (const Setting& setting : axis.values) {
+    const std::string text = text_of(setting);
+    labels.push_back(label_of(files ? fs::path(text).filename().string() : text));
+    names.insert(labels.back());
+  }
+  if (names.size() == labels.size()) return labels;
+  names.clear();
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const std::string label = label_of(text_of(axis.values[i]));
+    labels[i] = label;
+    for (int number = 2; !names.insert(labels[i]).second; ++number)
+      labels[i] = label + "~" + std::to_string(number);
+  }
+  return labels;
+}
+
+std::string label_part(const Sweep& sweep, std::size_t axis, std::uint32_t value) {
+  std::string name = sweep.axes[axis].name;
+  std::replace(name.begin(), name.end(), '/', '.');
+  return label_of(name) + "=" + sweep.axes[axis].labels[value];
+}
+
+/// Not "a.ply", and not "shape:torus?n=4000", which no file is named like.
+bool is_pattern(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  return text.find_first_of("*?[") != std::string::npos &&
+         (colon == std::string::npos || !is_identifier(text.substr(0, colon)));
+}
+
+class SweepPlanner {
+ public:
+  SweepPlanner(const GraphFile& top, const std::vector<Setting>& sets, const SweepOptions& options,
+               Findings& findings)
+      : top_(top), sets_(sets), options_(options), findings_(findings) {}
+
+  std::optional<Sweep> run() {
+    read_inputs();
+    if (top_.sweep) {
+      for (const SweepAxis& axis : top_.sweep->axes) add_axis(axis);
+    }
+    for (const Override& axis : options_.axes) add_axis(axis);
+    if (sweep_.axes.empty()) return std::nullopt;
+    refuse_fixed();
+    for (std::size_t i = 0; i < sweep_.axes.size(); ++i) {
+      refuse_doubles(sweep_.axes[i]);
+      sweep_.axes[i].labels = labels_of(sweep_.axes[i], i < inputs_);
+    }
+    if (good_) combine();
+    if (sweep_.variants.empty()) sweep_.variants.emplace_back(sweep_.axes.size(), 0);
+    return std::move(sweep_);
+  }
+
+ private:
+  void error(Offset offset, std::string message, std::string hint = {}) {
+    findings_.error(top_, offset, std::move(message), std::move(hint));
+    good_ = false;
+  }
+  void error(const Setting& about, std::string message, std::string hint = {}) {
+    findings_.add(about_setting(about, std::move(message), std::move(hint)));
+    good_ = false;
+  }
+
+  static Setting from_option(const char* option, const std::string& name, const std::string& text) {
+    Setting setting;
+    setting.name = name;
+    setting.text = text;
+    setting.origin = std::string(option) + " " + (name.empty() ? text : name + "=" + text);
+    return setting;
+  }
+  Setting from_file(const SweepAxis& axis, const SweepAxis::Value& value) const {
+    Setting setting;
+    setting.name = axis.name;
+    setting.value = value.json;
+    setting.file = &top_;
+    setting.offset = value.offset;
+    setting.name_offset = axis.offset;
+    return setting;
+  }
+
+  Sweep::Axis* find_axis(const std::string& name) {
+    for (Sweep::Axis& axis : sweep_.axes) {
+      if (setting_target(axis.name) == setting_target(name)) return &axis;
+    }
+    return nullptr;
+  }
+
+  /// Names of the file parameters of the graph.
+  std::vector<std::string> file_params() const {
+    std::vector<std::string> names;
+    for (const GraphParam& param : top_.params) {
+      if (!param.broken && param.decl.kind == ParamKind::file) names.push_back(param.decl.name);
+    }
+    return names;
+  }
+
+  void read_inputs() {
+    const std::vector<std::string> files = file_params();
+    const auto is_file = [&](const std::string& name) {
+      return std::find(files.begin(), files.end(), name) != files.end();
+    };
+    std::map<std::string, std::vector<Setting>> given;
+    for (const std::string& text : options_.inputs) {
+      const std::size_t equals = text.find('=');
+      if (equals != std::string::npos && top_.param_index.contains(text.substr(0, equals))) {
+        const std::string name = text.substr(0, equals);
+        const Setting pattern = from_option("--inputs", name, text.substr(equals + 1));
+        if (!is_file(name))
+          error(pattern, in_quotes(name) + " is no parameter of kind file", file_hint(files));
+        given[name].push_back(pattern);
+        continue;
+      }
+      Setting pattern = from_option("--inputs", "", text);
+      if (top_.maps.size() == 1) {
+        pattern.name = top_.maps[0].name;
+      } else if (top_.maps.empty() && files.size() == 1) {
+        pattern.name = files[0];
+      } else {
+        error(pattern,
+              files.empty() ? "the graph has no parameter of kind file"
+                            : "which parameter shall have these files is not clear",
+              files.empty() ? "--axis NAME=VALUE,VALUE takes other parameters" : file_hint(files));
+        continue;
+      }
+      given[pattern.name].push_back(std::move(pattern));
+    }
+    for (const SweepAxis& map : top_.maps) {
+      if (!is_file(map.name)) {
+        const std::string hint = did_you_mean(map.name, files);
+        error(map.offset,
+              "\"map\" needs a parameter of kind file; " + in_quotes(map.name) + " is none of the graph's",
+              hint.empty() ? file_hint(files) : hint);
+      }
+      if (given.contains(map.name)) continue;
+      for (const SweepAxis::Value& value : map.values) {
+        if (value.json.is_string()) {
+          given[map.name].push_back(from_file(map, value));
+        } else {
+          error(value.offset, "a file pattern must be a text, " + described(value.json));
+        }
+      }
+    }
+    for (const auto& [name, patterns] : given) add_files(name, patterns);
+    inputs_ = sweep_.axes.size();
+  }
+
+  static std::string file_hint(const std::vector<std::string>& files) {
+    if (files.empty()) return "the graph has no parameter of kind file";
+    return "file parameters are " + listed(files) + "; write --inputs '" + files[0] + "=PATTERN'";
+  }
+
+  void add_files(const std::string& name, const std::vector<Setting>& patterns) {
+    Sweep::Axis axis;
+    axis.name = name;
+    std::map<std::string, Setting> found;  // each once, sorted
+    for (const Setting& pattern : patterns) {
+      const std::string text = text_of(pattern);
+      std::vector<std::string> paths;
+      if (!is_pattern(text)) {
+        paths.push_back(text);
+      } else {
+        glob_t matches{};
+        if (::glob(text.c_str(), 0, nullptr, &matches) == 0) {
+          std::error_code ignored;
+          for (std::size_t i = 0; i < matches.gl_pathc; ++i) {
+            if (!fs::is_directory(matches.gl_pathv[i], ignored)) paths.emplace_back(matches.gl_pathv[i]);
+          }
+        }
+        ::globfree(&matches);
+      }
+      if (paths.empty()) {
+        error(pattern, "no file matches " + in_quotes(text),
+              "patterns are relative to the current directory, " + in_quotes(fs::current_path().string()));
+      }
+      for (const std::string& path : paths) {
+        Setting value = pattern;
+        value.name = name;
+        if (value.value) {
+          value.value = path;
+        } else {
+          value.text = path;
+        }
+        found.emplace(path, std::move(value));
+      }
+    }
+    for (auto& [path, value] : found) axis.values.push_back(std::move(value));
+    if (!axis.values.empty()) sweep_.axes.push_back(std::move(axis));
+  }
+
+  void add_axis(const SweepAxis& written) {
+    for (const Override& option : options_.axes) {
+      if (setting_target(option.name) == setting_target(written.name)) return add_axis(option);
+    }
+    Sweep::Axis axis;
+    axis.name = written.name;
+    for (const SweepAxis::Value& value : written.values) axis.values.push_back(from_file(written, value));
+    if (axis.values.empty()) {
+      good_ = false;  // reported when it was read
+    } else if (find_axis(axis.name) != nullptr) {
+      error(written.offset, in_quotes(axis.name) + " is swept twice",
+            "\"map\", \"--inputs\" and \"axes\" cannot have the same parameter");
+    } else {
+      sweep_.axes.push_back(std::move(axis));
+    }
+  }
+
+  void add_axis(const Override& option) {
+    if (!added_.insert(setting_target(option.name)).second) {
+      if (std::count_if(options_.axes.begin(), options_.axes.end(), [&](const Override& other) {
+            return setting_target(other.name) == setting_target(option.name);
+          }) > 1) {
+        error(from_option("--axis", option.name, option.value), "this axis is given twice",
+              "put all values into one: --axis NAME=A,B,C");
+      }
+      return;
+    }
+    const Setting whole = from_option("--axis", option.name, option.value);
+    if (find_axis(option.name) != nullptr) {
+      error(whole, in_quotes(option.name) + " is swept twice", "--inputs has this parameter already");
+      return;
+    }
+    Sweep::Axis axis;
+    axis.name = option.name;
+    if (option.value.starts_with("[")) {
+      const auto list = nlohmann::json::parse(option.value, nullptr, false);
+      if (!list.is_array()) {
+        error(whole, "this is no JSON list", "write it as --axis '" + option.name + "=[0.1, 0.3]'");
+        return;
+      }
+      for (const auto& item : list) {
+        Setting value = whole;
+        if (item.is_structured() || item.is_null()) {
+          error(whole, "a value of an axis must be a number, a text, true or false");
+          return;
+        }
+        value.value = Json(item);
+        axis.values.push_back(std::move(value));
+      }
+    } else {
+      for (std::size_t begin = 0; begin <= option.value.size();) {
+        const std::size_t comma = std::min(option.value.find(',', begin), option.value.size());
+        Setting value = whole;
+        value.text = option.value.substr(begin, comma - begin);
+        axis.values.push_back(std::move(value));
+        begin = comma + 1;
+      }
+    }
+    if (axis.values.empty()) {
+      error(whole, "this axis has no values");
+      return;
+    }
+    sweep_.axes.push_back(std::move(axis));
+  }
+
+  void refuse_fixed() {
+    for (const Setting& set : sets_) {
+      if (find_axis(set.name) == nullptr) continue;
+      error(set, in_quotes(set.name) + " is an axis of the sweep",
+            "to run one value of it only: --axis " + set.name + "=" + set.text);
+    }
+  }
+
+  void refuse_doubles(const Sweep::Axis& axis) {
+    std::set<std::string> seen;
+    for (const Setting& value : axis.values) {
+      if (!seen.insert(text_of(value)).second)
+        error(value, "axis " + in_quotes(axis.name) + " has " + in_quotes(text_of(value)) + " twice");
+    }
+  }
+
+  /// For every excluded combination: axis and value; empty where it cannot occur.
+  std::vector<std::vector<std::pair<std::size_t, std::uint32_t>>> exclusions() {
+    std::vector<std::vector<std::pair<std::size_t, std::uint32_t>>> result;
+    if (!top_.sweep) return result;
+    for (const std::vector<SweepAxis>& combination : top_.sweep->excluded) {
+      auto& excluded = result.emplace_back();
+      bool possible = true;
+      for (const SweepAxis& part : combination) {
+        const Sweep::Axis* const axis = find_axis(part.name);
+        std::vector<std::string> known;
+        if (axis == nullptr) {
+          for (const Sweep::Axis& one : sweep_.axes) known.push_back(one.name);
+          const std::string hint = did_you_mean(part.name, known);
+          error(part.offset, "the sweep has no axis " + in_quotes(part.name),
+                hint.empty() ? "axes are " + listed(known) : hint);
+          continue;
+        }
+        for (const Setting& value : axis->values) known.push_back(text_of(value));
+        const std::string wanted = plain_text(part.values[0].json);
+        const auto place = std::find(known.begin(), known.end(), wanted);
+        if (place != known.end()) {
+          excluded.emplace_back(axis - sweep_.axes.data(), place - known.begin());
+          continue;
+        }
+        possible = false;
+        if (axis->values[0].file == nullptr) continue;  // the command line has chosen other values
+        const std::string hint = did_you_mean(wanted, known);
+        error(part.values[0].offset, "axis " + in_quotes(axis->name) + " has no value " + in_quotes(wanted),
+              hint.empty() ? "values are " + listed(known) : hint);
+      }
+      if (!possible) excluded.clear();
+    }
+    return result;
+  }
+
+  void combine() {
+    const bool zip = top_.sweep && top_.sweep->zip;
+    const auto& axes = sweep_.axes;
+    const auto excluded = exclusions();
+    // What counts one by one: each file axis, then each other axis, or all of those together.
+    std::vector<std::pair<std::size_t, std::size_t>> digits;  // first axis of a group, and its length
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+      if (zip && i > inputs_) {
+        if (axes[i].values.size() != axes[inputs_].values.size()) {
+          error(axes[i].values[0].file != nullptr ? axes[i].values[0].name_offset : top_.sweep->offset,
+                "axes of a zip have the same number of values; " + in_quotes(axes[inputs_].name) + " has " +
+                    std::to_string(axes[inputs_].values.size()) + ", " + in_quotes(axes[i].name) + " has " +
+                    std::to_string(axes[i].values.size()),
+                "\"mode\": \"product\" takes every combination");
+          return;
+        }
+        continue;
+      }
+      digits.emplace_back(i, axes[i].values.size());
+    }
+    double count = 1;
+    for (const auto& [axis, length] : digits) count *= static_cast<double>(length);
+    if (count > static_cast<double>(max_variants)) {
+      const std::string text =
+          count < 1e15 ? std::to_string(static_cast<std::uint64_t>(count)) : shortest(count);
+      const std::string message =
+          "the sweep has " + text + " variants, more than " + std::to_string(max_variants);
+      const std::string hint = "take fewer values, or \"mode\": \"zip\"";
+      if (top_.sweep) {
+        error(top_.sweep->offset, message, hint);
+      } else {
+        error(axes.back().values[0], message, hint);
+      }
+      return;
+    }
+    const auto total = static_cast<std::size_t>(count);
+    for (std::size_t number = 0; number < total; ++number) {
+      Sweep::Choice choice(axes.size());
+      std::size_t rest = number;
+      for (std::size_t d = digits.size(); d-- > 0;) {
+        const auto value = static_cast<std::uint32_t>(rest % digits[d].second);
+        rest /= digits[d].second;
+        const std::size_t end = d + 1 < digits.size() ? digits[d + 1].first : axes.size();
+        for (std::size_t axis = digits[d].first; axis < end; ++axis) choice[axis] = value;
+      }
+      const bool out = std::any_of(excluded.begin(), excluded.end(), [&](const auto& combination) {
+        return !combination.empty() &&
+               std::all_of(combination.begin(), combination.end(),
+                           [&](const auto& part) { return choice[part.first] == part.second; });
+      });
+      if (!out) sweep_.variants.push_back(std::move(choice));
+    }
+    if (sweep_.variants.empty() && good_)
+      error(top_.sweep->offset, "every combination of the sweep is excluded");
+  }
+
+  const GraphFile& top_;
+  const std::vector<Setting>& sets_;
+  const SweepOptions& options_;
+  Findings& findings_;
+  Sweep sweep_;
+  std::set<std::string> added_;  // axes of the command line
+  std::size_t inputs_ = 0;       // axes that are inputs; they come first
+  bool good_ = true;
+};
+
+void append(std::string& to, std::string_view text) {
+  to += std::to_string(text.size());
+  to += ':';
+  to += text;
+}
+
+/// What a node is but for its inputs.
+void append_identity(std::string& to, const DagNode& node) {
+  append(to, node.path);
+  append(to, node.decl->id);
+  for (const auto& [name, value] : node.params) {
+    append(to, name);
+    append(to, value.dump());
+  }
+  if (node.loop == nullptr) return;
+  const Dag& body = node.loop->body;
+  for (const DagNode& inner : body.nodes) {
+    append_identity(to, inner);
+    for (const auto& [port, edge] : inner.inputs) {
+      append(to, port);
+      append(to, std::to_string(edge.node) + "." + edge.port);
+    }
+  }
+  for (const DagOutput& output : body.outputs) {
+    append(to, output.name);
+    append(to, std::to_string(output.from.node) + "." + output.from.port);
+  }
+}
+
+/// The value that a variant has for an axis, as a node gets it.
+Json value_in(const Dag& variant, const Setting& setting) {
+  const std::string target = setting_target(setting.name);
+  const std::size_t dot = target.rfind('.');
+  const std::string path = target.substr(0, dot), name = target.substr(dot + 1);
+  if (path.empty()) {
+    if (const auto value = variant.params.find(name); value != variant.params.end()) return value->second;
+  }
+  if (const DagNode* node = path.empty() ? nullptr : variant.find(path)) {
+    if (const auto value = node->params.find(name); value != node->params.end()) return value->second;
+  }
+  return setting.value ? *setting.value : Json(setting.text);
+}
+
+}  // namespace
+
+std::string Sweep::name_of(const Choice& choice) const {
+  std::string name;
+  for (std::size_t axis = 0; axis < axes.size(); ++axis)
+    name += (axis == 0 ? "" : ",") + label_part(*this, axis, choice[axis]);
+  return cut(name, longest_name);
+}
+
+std::optional<Sweep> plan_sweep(const GraphFile& top, const std::vector<Setting>& sets,
+                                const SweepOptions& options, Findings& findings) {
+  return SweepPlanner(top, sets, options, findings).run();
+}
+
+VariantMerger::VariantMerger(const Sweep& sweep) : sweep_(sweep) {}
+
+void VariantMerger::add(Dag dag) {
+  const std::size_t number = dag_.variants.size();
+  const Sweep::Choice& choice = sweep_.variants[number];
+  Variant& variant = dag_.variants.emplace_back();
+  variant.name = sweep_.name_of(choice);
+  for (std::size_t axis = 0; axis < choice.size(); ++axis) {
+    const Setting& setting = sweep_.axes[axis].values[choice[axis]];
+    variant.values.emplace_back(sweep_.axes[axis].name, value_in(dag, setting));
+  }
+  if (number == 0) {
+    dag_.file = dag.file;
+    dag_.doc = dag.doc;
+    dag_.params = std::move(dag.params);
+    for (const Sweep::Axis& axis : sweep_.axes) dag_.params.erase(axis.name);
+  }
+  variant.nodes.reserve(dag.nodes.size());
+  for (DagNode& node : dag.nodes) {
+    for (auto& [port, edge] : node.inputs) edge.node = variant.nodes[edge.node];
+    std::string identity;
+    append_identity(identity, node);
+    for (const auto& [port, edge] : node.inputs) {
+      append(identity, port);
+      append(identity, std::to_string(edge.node) + "." + edge.port);
+    }
+    const auto [known, fresh] = known_.try_emplace(std::move(identity), dag_.nodes.size());
+    variant.nodes.push_back(known->second);
+    if (fresh) {
+      dag_.nodes.push_back(std::move(node));
+      shared_.push_back({number, std::vector<bool>(choice.size(), true)});
+      continue;
+    }
+    Shared& shared = shared_[known->second];
+    for (std::size_t axis = 0; axis < choice.size(); ++axis) {
+      if (choice[axis] != sweep_.variants[shared.first][axis]) shared.common[axis] = false;
+    }
+  }
+  variant.interfaces = std::move(dag.interfaces);
+  for (DagOutput& output : variant.interfaces) output.from.node = variant.nodes[output.from.node];
+  for (DagOutput& output : dag.outputs) {
+    output.name = variant.name + "/" + output.name;
+    output.from.node = variant.nodes[output.from.node];
+    dag_.outputs.push_back(std::move(output));
+  }
+}
+
+Dag VariantMerger::finish() {
+  std::vector<bool> varies(sweep_.axes.size(), false);
+  for (const Sweep::Choice& choice : sweep_.variants) {
+    for (std::size_t axis = 0; axis < choice.size(); ++axis)
+      varies[axis] = varies[axis] || choice[axis] != sweep_.variants[0][axis];
+  }
+  std::set<std::string> taken;
+  for (std::size_t i = 0; i < dag_.nodes.size(); ++i) {
+    const Sweep::Choice& choice = sweep_.variants[shared_[i].first];
+    std::string label;
+    for (std::size_t axis = 0; axis < choice.size(); ++axis) {
+      if (varies[axis] && shared_[i].common[axis])
+        label += (label.empty() ? "" : ",") + label_part(sweep_, axis, choice[axis]);
+    }
+    std::string& path = dag_.nodes[i].path;
+    std::string labelled = label.empty() ? path : "[" + cut(label, longest_name) + "]/" + path;
+    // Two nodes of different variants may have no value, or the same values, in common.
+    if (!taken.insert(labelled).second) {
+      labelled = "[" + dag_.variants[shared_[i].first].name + "]/" + path;
+      taken.insert(labelled);
+    }
+    path = std::move(labelled);
+  }
+  return std::move(dag_);
+}
+
+}  // namespace ballflow

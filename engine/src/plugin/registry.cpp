@@ -1,0 +1,218 @@
+#include "ballflow/registry.hpp"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+
+#include "ballflow/error.hpp"
+#include "base/quote.hpp"
+
+namespace ballflow {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct PluginTables {
+  std::string name, version;
+  std::vector<TypeDeclaration> types;
+  std::vector<NodeDeclaration> nodes;
+};
+
+std::string_view view(bf_bytes text) {
+  return {text.data, text.data == nullptr ? 0 : static_cast<std::size_t>(text.size)};
+}
+
+[[noreturn]] void refuse(const std::string& why) { throw Error(ExitCode::plugin, why); }
+
+/// Reads the tables of a loaded library; throws Error that says what is wrong with them.
+PluginTables read_tables(const bf_plugin& plugin, const std::string& path) {
+  constexpr std::uint64_t most_entries = 100'000;
+  if (plugin.struct_size < sizeof(bf_plugin)) refuse("hands over a plugin table that is too small");
+  if (plugin.abi_version != BALLFLOW_ABI_VERSION) {
+    refuse("says plugin ABI " + std::to_string(plugin.abi_version) + ", this program has plugin ABI " +
+           std::to_string(BALLFLOW_ABI_VERSION));
+  }
+  if (plugin.node_count > most_entries || plugin.type_count > most_entries)
+    refuse("claims more than 100000 nodes or types");
+  if ((plugin.node_count > 0 && plugin.nodes == nullptr) ||
+      (plugin.type_count > 0 && plugin.types == nullptr)) {
+    refuse("hands over a null table of nodes or types");
+  }
+  PluginTables tables;
+  tables.name = printable(view(plugin.name));
+  tables.version = printable(view(plugin.version));
+  for (std::uint64_t i = 0; i < plugin.type_count; ++i) {
+    const bf_type* entry = plugin.types[i];
+    if (entry == nullptr || entry->struct_size < sizeof(bf_type))
+      refuse("type " + std::to_string(i) + " is null or too small");
+    TypeDeclaration type = parse_type_declaration(view(entry->declaration));
+    type.plugin_path = path;
+    type.entry = entry;
+    tables.types.push_back(std::move(type));
+  }
+  for (std::uint64_t i = 0; i < plugin.node_count; ++i) {
+    const bf_node* entry = plugin.nodes[i];
+    if (entry == nullptr || entry->struct_size < sizeof(bf_node))
+      refuse("node " + std::to_string(i) + " is null or too small");
+    NodeDeclaration node = parse_node_declaration(view(entry->declaration));
+    if (entry->run == nullptr) refuse("node " + in_quotes(node.id) + " has no run function");
+    node.plugin_path = path;
+    node.entry = entry;
+    tables.nodes.push_back(std::move(node));
+  }
+  return tables;
+}
+
+std::string origin(const std::string& path) { return path.empty() ? "this program" : path; }
+
+template <class Declaration>
+void add_once(std::map<std::string, Declaration>& all, Declaration added, const char* what) {
+  const auto [place, fresh] = all.try_emplace(added.id, added);
+  if (fresh || place->second.same_content(added)) return;  // the first of equal ones stays
+  const Declaration& other = place->second;
+  throw Error(ExitCode::plugin,
+              std::string(what) + " " + in_quotes(added.id) + " is declared differently by " +
+                  origin(other.plugin_path) + " (version " + std::to_string(other.version) + ") and by " +
+                  origin(added.plugin_path) + " (version " + std::to_string(added.version) + ")",
+              "remove one of the two libraries, or build both from the same sources");
+}
+
+/// The *.so files of a folder by name; a folder that is absent has none.
+std::vector<std::string> libraries_in(const fs::path& folder) {
+  std::vector<std::string> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    if (entry->path().extension() == ".so") files.push_back(entry->path().string());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace
+
+std::string Registry::default_folder() {
+  std::error_code error;
+  const fs::path self = fs::read_symlink("/proc/self/exe", error);
+  return error ? std::string() : (self.parent_path().parent_path() / "lib" / "ballflow").string();
+}
+
+void Registry::add(NodeDeclaration node) { add_once(nodes_, std::move(node), "node"); }
+void Registry::add(TypeDeclaration type) { add_once(types_, std::move(type), "type"); }
+
+void Registry::add_plugin(const bf_plugin& plugin, const std::string& path) {
+  PluginTables tables = read_tables(plugin, path);
+  for (TypeDeclaration& type : tables.types) add(std::move(type));
+  for (NodeDeclaration& node : tables.nodes) add(std::move(node));
+  candidates_.push_back({path, tables.name, tables.version, ""});
+}
+
+std::shared_ptr<const Registry> Registry::load(const std::vector<std::string>& extra) {
+  const auto registry = std::make_shared<Registry>();
+  std::set<std::string> seen;
+
+  const auto load_file = [&](const std::string& path) -> std::string {
+    std::error_code error;
+    const fs::path real = fs::canonical(path, error);
+    if (!error && !seen.insert(real.string()).second) return {};
+    std::string why = refuse_plugin_file(path);
+    const bf_plugin* plugin = nullptr;
+    if (why.empty()) {
+      // Never closed: artifacts, declarations and thread-local destructors point into it.
+      void* const handle = dlopen(real.c_str(), RTLD_NOW | RTLD_LOCAL);
+      if (handle == nullptr) {
+        const char* const reason = dlerror();
+        why = std::string("cannot be loaded: ") + (reason != nullptr ? reason : "unknown reason");
+      } else if (const auto entry = reinterpret_cast<bf_plugin_entry>(dlsym(handle, "ballflow_plugin"));
+                 entry == nullptr) {
+        why = "exports no function ballflow_plugin";
+      } else if (plugin = entry(); plugin == nullptr) {
+        why = "could not make its tables of nodes and types";
+      }
+    }
+    if (plugin != nullptr) {
+      try {
+        read_tables(*plugin, path);
+      } catch (const Error& problem) {
+        why = problem.what();
+      }
+    }
+    if (why.empty()) {
+      registry->add_plugin(*plugin, path);
+    } else {
+      registry->candidates_.push_back({path, "", "", why});
+    }
+    return why;
+  };
+
+  const auto load_folder = [&](const std::string& folder) {
+    registry->folders_.push_back(folder);
+    for (const std::string& file : libraries_in(folder)) load_file(file);
+  };
+
+  for (const std::string& path : extra) {
+    std::error_code error;
+    if (fs::is_directory(path, error)) {
+      load_folder(path);
+      continue;
+    }
+    const std::string why = load_file(path);
+    if (!why.empty()) throw Error(ExitCode::plugin, "the node library " + path + " " + why);
+  }
+  if (const char* folders = std::getenv("BALLFLOW_PLUGIN_PATH")) {
+    std::string_view rest = folders;
+    while (!rest.empty()) {
+      const std::string_view folder = rest.substr(0, rest.find(':'));
+      rest.remove_prefix(std::min(rest.size(), folder.size() + 1));
+      if (!folder.empty()) load_folder(std::string(folder));
+    }
+  }
+  const std::string own = default_folder();
+  if (!own.empty()) load_folder(own);
+
+  registry->drop_nodes_of_unknown_types();
+  return registry;
+}
+
+void Registry::drop_nodes_of_unknown_types() {
+  const auto problem_of = [&](const NodeDeclaration& node) -> std::string {
+    for (const std::vector<PortDecl>* ports : {&node.inputs, &node.outputs}) {
+      for (const PortDecl& port : *ports) {
+        const TypeDeclaration* known = type(port.type);
+        const std::string start = "node " + in_quotes(node.id) + ": port " + in_quotes(port.name) +
+                                  " has the type " + in_quotes(port.type) + " version " +
+                                  std::to_string(port.type_version);
+        if (known == nullptr) return start + ", which no loaded library declares";
+        if (known->version != port.type_version) {
+          return start + ", but version " + std::to_string(known->version) + " is declared by " +
+                 origin(known->plugin_path);
+        }
+      }
+    }
+    return {};
+  };
+  std::set<std::string> dropped;
+  for (const auto& [id, node] : nodes_) {
+    const std::string problem = problem_of(node);
+    if (problem.empty() || !dropped.insert(node.plugin_path).second) continue;
+    for (PluginCandidate& candidate : candidates_) {
+      if (candidate.path == node.plugin_path) candidate.refused = problem;
+    }
+  }
+  std::erase_if(nodes_, [&](const auto& item) { return dropped.contains(item.second.plugin_path); });
+}
+
+const NodeDeclaration* Registry::node(const std::string& id) const {
+  const auto found = nodes_.find(id);
+  return found == nodes_.end() ? nullptr : &found->second;
+}
+
+const TypeDeclaration* Registry::type(const std::string& id) const {
+  const auto found = types_.find(id);
+  return found == types_.end() ? nullptr : &found->second;
+}
+
+}  // namespace ballflow

@@ -1,0 +1,270 @@
+#include "ballflow/key.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cctype>
+#include <filesystem>
+
+#include "base/canonical_json.hpp"
+
+namespace ballflow {
+namespace {
+
+constexpr int key_format = 2;  // 2: summaries have the numbers of RFC 8785
+
+void add_u64(std::string& bytes, std::uint64_t value) {
+  char little_endian[8];
+  for (int i = 0; i < 8; ++i) little_endian[i] = static_cast<char>(value >> (8 * i) & 0xff);
+  bytes.append(little_endian, sizeof little_endian);
+}
+
+void add_tag(std::string& bytes, char tag) { bytes += tag; }
+
+void add_text(std::string& bytes, std::string_view text) {
+  add_u64(bytes, text.size());
+  bytes += text;
+}
+
+// Every value starts with a tag of its kind and every variable-length part with its length, so that no two
+// different manifests give the same bytes.
+void add_value(std::string& bytes, const Json& value) {
+  switch (value.type()) {
+    case Json::value_t::null:
+      add_tag(bytes, 'n');
+      break;
+    case Json::value_t::boolean:
+      add_tag(bytes, value.get<bool>() ? 't' : 'f');
+      break;
+    case Json::value_t::number_integer:
+    case Json::value_t::number_unsigned:
+      add_tag(bytes, 'i');
+      add_u64(bytes, static_cast<std::uint64_t>(value.get<std::int64_t>()));
+      break;
+    case Json::value_t::number_float:
+      add_tag(bytes, 'd');
+      add_u64(bytes, std::bit_cast<std::uint64_t>(value.get<double>() + 0.0));  // -0 + 0 = +0
+      break;
+    case Json::value_t::string:
+      add_tag(bytes, 's');
+      add_text(bytes, value.get_ref<const std::string&>());
+      break;
+    case Json::value_t::array:
+      add_tag(bytes, 'a');
+      add_u64(bytes, value.size());
+      for (const Json& item : value) add_value(bytes, item);
+      break;
+    case Json::value_t::object: {
+      std::vector<std::pair<std::string, const Json*>> members;
+      for (const auto& [name, item] : value.items()) members.emplace_back(name, &item);
+      std::sort(members.begin(), members.end());
+      add_tag(bytes, 'o');
+      add_u64(bytes, members.size());
+      for (const auto& [name, item] : members) {
+        add_text(bytes, name);
+        add_value(bytes, *item);
+      }
+      break;
+    }
+    default:
+      throw Error(ExitCode::plugin, "a parameter has a value that JSON does not know");
+  }
+}
+
+/// "scan.OFF.gz" -> "off.gz": readers choose by it, so it belongs to the key.
+std::string file_format(const std::string& path) {
+  const std::filesystem::path name = std::filesystem::path(path).filename();
+  std::string format = name.extension().string();
+  if (format == ".gz" || format == ".GZ") format = name.stem().extension().string() + format;
+  std::transform(format.begin(), format.end(), format.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return format.empty() ? format : format.substr(1);
+}
+
+Json key_value(const ParamDecl& decl, const Json& value, Store& store) {
+  switch (decl.kind) {
+    case ParamKind::number:
+      return value.get<double>();
+    case ParamKind::integer:
+      return value.get<std::int64_t>();
+    case ParamKind::file: {
+      const auto& text = value.get_ref<const std::string&>();
+      for (const std::string& scheme : decl.schemes) {
+        if (text.rfind(scheme, 0) == 0) return text;
+      }
+      return Json{{"file", {{"digest", store.file_digest(text).hex()}, {"format", file_format(text)}}}};
+    }
+    default:
+      return value;
+  }
+}
+
+Json body_manifest(const Dag& body, Store& store);
+
+/// What a node does, without its inputs.
+Json node_manifest(const DagNode& node, Store& store) {
+  const NodeDeclaration& decl = *node.decl;
+  Json manifest = {{"node", decl.id}, {"version", decl.version}};
+  manifest["libraries"] = Json::object();
+  for (const auto& [name, version] : decl.libraries) manifest["libraries"][name] = version;
+  Json params = Json::object();
+  for (const ParamDecl& param : decl.params) {
+    if (param.hashed) params[param.name] = key_value(param, node.params.at(param.name), store);
+  }
+  manifest["params"] = std::move(params);
+  if (node.loop) manifest["body"] = body_manifest(node.loop->body, store);
+  return manifest;
+}
+
+/// The nodes of a loop body by position and type, because names are in no key, and how they are connected.
+Json body_manifest(const Dag& body, Store& store) {
+  const auto name = [&](std::size_t i) { return std::to_string(i) + ":" + body.nodes[i].decl->id; };
+  const auto source = [&](const EdgeRef& edge) {
+    return (edge.node == loop_input ? "inputs" : name(edge.node)) + "." + edge.port;
+  };
+  Json nodes = Json::object(), states = Json::object();
+  for (std::size_t i = 0; i < body.nodes.size(); ++i) {
+    Json one = node_manifest(body.nodes[i], store);
+    one["inputs"] = Json::object();
+    for (const auto& [port, edge] : body.nodes[i].inputs) one["inputs"][port] = source(edge);
+    nodes.get_ref<Json::object_t&>().emplace_back(name(i), std::move(one));  // names are unique
+  }
+  for (const DagOutput& output : body.outputs) states[output.name] = source(output.from);
+  return {{"nodes", std::move(nodes)}, {"states", std::move(states)}};
+}
+
+}  // namespace
+
+/// Writes a manifest and the bytes that are hashed for it at once, because a Json object of it would cost
+/// more than everything else that the engine does for a node. The manifest has its members in the order in
+/// which they are easiest to read, the bytes have them sorted.
+ActionKey action_key(const DagNode& node, const std::map<std::string, OutputEntry>& inputs,
+                     std::uint64_t seed, Store& store) {
+  const NodeDeclaration& decl = *node.decl;
+  std::vector<std::pair<std::string_view, Json>> params;
+  for (const ParamDecl& param : decl.params) {
+    if (param.hashed) params.emplace_back(param.name, key_value(param, node.params.at(param.name), store));
+  }
+  const Json body = node.loop ? body_manifest(node.loop->body, store) : Json();
+
+  std::string text;
+  text.reserve(512);
+  const auto add_member = [&text](std::string_view name) {
+    if (text.back() != '{') text += ',';
+    write_string(name, text);
+    text += ':';
+  };
+  text += '{';
+  add_member("format");
+  write_number(key_format, text);
+  add_member("node");
+  write_string(decl.id, text);
+  add_member("version");
+  write_number(decl.version, text);
+  add_member("libraries");
+  text += '{';
+  for (const auto& [name, version] : decl.libraries) {
+    add_member(name);
+    write_string(version, text);
+  }
+  text += '}';
+  add_member("params");
+  text += '{';
+  for (const auto& [name, value] : params) {
+    add_member(name);
+    write_value(value, text);
+  }
+  text += '}';
+  if (node.loop) {
+    add_member("body");
+    text += body.dump();
+  }
+  add_member("seed");
+  if (decl.uses_seed) {
+    write_number(seed, text);
+  } else {
+    text += "null";
+  }
+  add_member("inputs");
+  text += '{';
+  for (const auto& [port, entry] : inputs) {
+    add_member(port);
+    text += '{';
+    add_member("type");
+    write_string(entry.type, text);
+    add_member("version");
+    write_number(entry.type_version, text);
+    add_member("digest");
+    text += '"';
+    text += entry.digest.hex();
+    text += "\"}";
+  }
+  text += "}}";
+
+  std::string bytes;
+  bytes.reserve(512);
+  const auto add_string = [&bytes](std::string_view value) {
+    add_tag(bytes, 's');
+    add_text(bytes, value);
+  };
+  const auto add_integer = [&bytes](std::uint64_t value) {
+    add_tag(bytes, 'i');
+    add_u64(bytes, value);
+  };
+  const auto add_object = [&bytes](std::size_t members) {
+    add_tag(bytes, 'o');
+    add_u64(bytes, members);
+  };
+  add_object(node.loop ? 8 : 7);
+  if (node.loop) {
+    add_text(bytes, "body");
+    add_value(bytes, body);
+  }
+  add_text(bytes, "format");
+  add_integer(key_format);
+  add_text(bytes, "inputs");
+  add_object(inputs.size());
+  for (const auto& [port, entry] : inputs) {
+    add_text(bytes, port);
+    add_object(3);
+    add_text(bytes, "digest");
+    add_string(entry.digest.hex());
+    add_text(bytes, "type");
+    add_string(entry.type);
+    add_text(bytes, "version");
+    add_integer(static_cast<std::uint64_t>(entry.type_version));
+  }
+  add_text(bytes, "libraries");
+  add_object(decl.libraries.size());
+  for (const auto& [name, version] : decl.libraries) {
+    add_text(bytes, name);
+    add_string(version);
+  }
+  add_text(bytes, "node");
+  add_string(decl.id);
+  add_text(bytes, "params");
+  add_object(params.size());
+  std::sort(params.begin(), params.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& [name, value] : params) {
+    add_text(bytes, name);
+    add_value(bytes, value);
+  }
+  add_text(bytes, "seed");
+  if (decl.uses_seed) {
+    add_integer(seed);
+  } else {
+    add_tag(bytes, 'n');
+  }
+  add_text(bytes, "version");
+  add_integer(static_cast<std::uint64_t>(decl.version));
+  return {sha256(bytes), std::move(text)};
+}
+
+Digest key_of(const std::string& manifest) {
+  const Json json = Json::parse(manifest, nullptr, false);
+  if (!json.is_object()) throw Error(ExitCode::store, "a key manifest cannot be read");
+  std::string bytes;
+  add_value(bytes, json);
+  return sha256(bytes);
+}
+
+}  // namespace ballflow

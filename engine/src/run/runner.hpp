@@ -1,0 +1,121 @@
+// The inside of Runner. scheduler.cpp decides what happens when; execution.cpp makes, keeps and stores
+// artifacts; determinism.cpp runs nodes again to compare.
+#pragma once
+
+#include <oneapi/tbb/task_group.h>
+
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <unordered_map>
+
+#include "ballflow/gc.hpp"
+#include "ballflow/run.hpp"
+#include "run/node_run.hpp"
+
+namespace ballflow {
+
+/// Thrown when an artifact that had to be computed again came out different: all keys that were derived
+/// from the old one are void.
+struct PlanIsVoid {};
+
+/// Thrown when an artifact that had to be computed again was not, because nobody wants results any more.
+struct Stopped {};
+
+const OutputEntry* find_output(const std::vector<OutputEntry>& outputs, const std::string& port);
+
+/// The first difference between two sets of outputs by port, in words; empty when there is none.
+std::string first_difference(const std::map<std::string, ArtifactPtr>& a,
+                             const std::map<std::string, ArtifactPtr>& b);
+
+class Runner::Impl {
+ public:
+  Impl(const Dag& dag, const Registry& registry, std::shared_ptr<Store> store, RunOptions options,
+       EventSink& events, Manifests earlier);
+  const RunResult& run();
+  ArtifactPtr artifact(const EdgeRef& output);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct State {
+    std::mutex mutex;                         // held while the node's artifacts are made again
+    std::map<std::string, ArtifactPtr> held;  // by port; guarded by mutex
+    std::optional<Digest> key;
+    std::vector<std::size_t> consumers;  // needed nodes that read an output, each once
+    std::size_t inputs_missing = 0;      // guarded by mutex_
+    std::size_t consumers_left = 0;      // guarded by mutex_
+    std::uint64_t admitted = 0;          // bytes taken from the budget; guarded by mutex_
+    bool waited = false;                 // for memory; guarded by mutex_
+    std::atomic<std::int64_t> last_progress{0};
+  };
+  struct Flight {
+    std::size_t leader;
+    std::vector<std::size_t> followers;
+  };
+
+  // scheduler.cpp
+  bool cancelled() const;
+  bool stopping() const;
+  bool may_run(std::size_t i) const { return options_.only.empty() || options_.only.count(i) != 0; }
+  void emit(Event event) noexcept;
+  void message(std::size_t i, bool warning, const std::string& text);
+  bool run_once();
+  void name_what_did_not_run();
+  void dispatch(std::size_t i);
+  void process(std::size_t i);
+  void resolve(std::size_t i);
+  bool take_force(std::size_t i);
+  std::optional<ActionEntry> entry_of(std::size_t i);
+  ActionKey key_of(const DagNode& node);
+  bool admit(std::size_t i);
+  void dismiss(std::size_t i);
+  std::uint64_t memory_estimate(std::size_t i);
+  bool is_at_hand(const EdgeRef& edge, const OutputEntry& entry);
+  void adopt(std::size_t i, const ActionEntry& entry, const std::string& reason);
+  std::string why(std::size_t i) const;
+  void settle(std::size_t i, NodeStatus status, const std::string& reason);
+  void follow(std::size_t i, std::size_t leader);
+  std::vector<std::size_t> producers_of(std::size_t i) const;
+
+  // execution.cpp
+  void check_files(std::size_t i);
+  NodeStatus compute(std::size_t i);
+  NodeRunOutcome execute(std::size_t i, unsigned threads);
+  void progress(std::size_t i, double fraction);
+  std::vector<OutputEntry> publish(std::size_t i, const NodeRunOutcome& outcome);
+  ArtifactPtr ensure(const EdgeRef& edge, std::size_t reader);
+  ArtifactPtr load(const EdgeRef& edge, const OutputEntry& entry, std::size_t reader);
+  void disagree(std::size_t i);
+  void forget(std::size_t i);
+
+  // determinism.cpp
+  void check_determinism();
+  std::string compare_executions(std::size_t i);
+
+  const Dag& dag_;
+  const Registry& registry_;
+  std::shared_ptr<Store> store_;
+  std::unique_ptr<Lease> lease_;  // what this run uses is not collected while it lives
+  RunOptions options_;
+  EventSink& events_;
+  Manifests earlier_;
+  RunResult result_;
+  Clock::time_point start_ = Clock::now();
+  std::set<std::pair<std::size_t, std::string>> wanted_;  // outputs of the graph
+  const std::vector<NodeResult>* before_ = nullptr;       // of the round before, while a round is on
+  std::vector<std::unique_ptr<State>> states_;
+  std::vector<bool> needed_;
+  tbb::task_group* group_ = nullptr;
+  std::mutex mutex_, events_mutex_;
+  std::set<std::size_t> force_;  // not yet computed; guarded by mutex_
+  std::unordered_map<Digest, Flight> flights_;
+  std::vector<std::size_t> deferred_;
+  std::map<Digest, ActionEntry> replaced_;      // of nodes that turned out not to be deterministic
+  std::set<std::size_t> nondeterministic_;      // guarded by mutex_
+  std::atomic<std::uint64_t> memory_used_ = 0;  // estimates of the running nodes; written under mutex_
+  std::size_t running_ = 0;
+  // stop_: nobody wants results any more; stop_starting_: what runs may end, nothing new begins
+  std::atomic<bool> stop_{false}, stop_starting_{false}, void_{false};
+};
+
+}  // namespace ballflow

@@ -1,0 +1,14 @@
+// The family "alpha": the dual complex of a union of balls.
+#include <ballflow/sdk.hpp>
+
+#include "types/artifact_types.hpp"
+
+namespace ballflow::nodes {
+const bf_node* alpha_shape_entry();
+}  // namespace ballflow::nodes
+
+BALLFLOW_PLUGIN("alpha", "0.1.0",
+                (std::vector<const bf_node*>{
+                    ballflow::nodes::alpha_shape_entry(),
+                }),
+                (ballflow::type_entries<ballflow::geometry::Balls, ballflow::geometry::SimplicialComplex>()))

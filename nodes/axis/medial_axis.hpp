@@ -1,0 +1,39 @@
+// The medial axis of a union of balls (Amenta and Kolluri 2001; Kornberger 2010, 3.7).
+//
+// Notation: K is the dual complex of the union (see alpha_shape.hpp), R the union of its tetrahedra, S its
+// simplices in no tetrahedron with their faces. W are the vertices of the boundary of the union, V(w) is
+// the Voronoi cell of w in W, and V the union of the boundaries of the cells.
+// The axis is S together with the intersection of R and V.
+#pragma once
+
+#include "base/monitor.hpp"
+#include "types/medial_axis.hpp"
+#include "types/simplicial_complex.hpp"
+
+namespace ballflow::geometry {
+
+/// What happens when the Euler characteristic of the axis is not that of the complex.
+enum class AxisMismatch { warn, error };
+
+struct MedialAxisOptions {
+  AxisMismatch on_mismatch = AxisMismatch::warn;
+};
+
+/// The medial axis of the union whose dual complex is `complex`, homotopy equivalent to the union.
+/// - Accepts every dual complex: empty, flat, without tetrahedra (the axis is then the complex itself), with
+///   cavities, singular parts, several components, balls on a grid.
+/// - Vertices are ball centres (radius: that of the ball) and Voronoi vertices of W (radius: the distance
+///   to W). Voronoi vertices so close to each other that rounding alone may part them are one. Vertices,
+///   edges and polygons are sorted by the balls that define them; the direction of a polygon is its sheet's.
+/// - Balls in another order, mirrored at a coordinate plane or scaled by a power of two give exactly the same
+///   axis, mirrored or scaled, but for the numbering and for places where sites coincide or are cospherical.
+/// - Every polygon is plane and convex up to rounding; where one point of W belongs to several triangles of
+///   the boundary of R (balls on a grid) it may be only plane.
+/// - Its kind is wall where a side of it is an edge of the boundary of R, which then hangs on that side.
+/// - The Euler characteristic of the axis is compared with that of the complex. They differ only where
+///   rounding hides the structure: a warning that names both, or an InputError. This happens for polar balls
+///   that were not enlarged, and rarely for balls on a grid of which many touch in one point.
+/// - The complex must hold its invariants (see broken_invariant).
+MedialAxis medial_axis(const SimplicialComplex& complex, const MedialAxisOptions& options, Monitor& monitor);
+
+}  // namespace ballflow::geometry

@@ -1,0 +1,55 @@
+#include "axis/medial_axis.hpp"
+
+#include <ballflow/sdk.hpp>
+
+#include "exact/cgal_version.hpp"
+#include "types/artifact_types.hpp"
+
+namespace ballflow::nodes {
+namespace {
+
+using geometry::AxisMismatch;
+using geometry::MedialAxisOptions;
+
+struct MedialAxis {
+  In<geometry::SimplicialComplex> complex;
+  Out<geometry::MedialAxis> axis;
+  MedialAxisOptions options;
+
+  static void declare(NodeDecl<MedialAxis>& d) {
+    d.id("MedialAxis", 3).summary("The medial axis of a union of balls as a polygon complex.");
+    d.doc(
+        "Simplices of the alpha-shape that belong to no tetrahedron, and inside its tetrahedra the Voronoi "
+        "diagram of the vertices of the union's boundary. The axis is homotopy equivalent to the union; its "
+        "Euler characteristic is compared with that of the alpha-shape. Accepts every alpha-shape: empty, "
+        "flat, with cavities, of several components, of balls on a grid. Polygons are labelled by sheets, "
+        "the "
+        "components after cutting at edges of three and more polygons, and oriented sheet by sheet; those "
+        "edges "
+        "are the seams.");
+    d.avoid_when(
+        "the alpha-shape is that of polar balls that were not enlarged: many balls then meet in one "
+        "sample, and rounding hides the structure.");
+    d.cites("amenta2001", "the medial axis of a union of balls").cites("kornberger2010", "3.7");
+    d.library("CGAL", geometry::cgal_version());
+    d.memory(1 << 20, 20);
+    d.input("complex", &MedialAxis::complex).doc("the alpha-shape of the balls (node AlphaShape)");
+    d.output("axis", &MedialAxis::axis)
+        .doc("polygons, edges in no polygon and isolated vertices, with the radius of the inscribed ball");
+    d.choice("on_mismatch", &MedialAxis::options, &MedialAxisOptions::on_mismatch,
+             {{AxisMismatch::warn, "warn", "say so and go on: the axis is right except near the places lost"},
+              {AxisMismatch::error, "error", "fail: nothing that follows sees an axis of another topology"}})
+        .doc("what happens when the axis and the alpha-shape have different Euler characteristics");
+  }
+  void run(RunContext& context) {
+    ContextMonitor monitor(context);
+    axis = geometry::medial_axis(*complex, options, monitor);
+    axis.summary("expected_euler_characteristic", complex->euler_characteristic());
+  }
+};
+
+}  // namespace
+
+const bf_node* medial_axis_entry() { return node_entry<MedialAxis>(); }
+
+}  // namespace ballflow::nodes

@@ -1,0 +1,202 @@
+#include "io/read_mesh.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/first_equal.hpp"
+#include "exact/affine_span.hpp"
+#include "io/file_content.hpp"
+#include "io/raw_model.hpp"
+#include "io/text_cursor.hpp"
+
+namespace ballflow::geometry {
+namespace {
+
+using Index = std::int32_t;
+constexpr Index none = -1;
+
+struct Extension {
+  std::string_view name;
+  std::optional<MeshFormat> format;  // none: the content decides
+};
+constexpr std::array extensions = {Extension{"", std::nullopt},          Extension{".txt", std::nullopt},
+                                   Extension{".dat", std::nullopt},      Extension{".off", MeshFormat::off},
+                                   Extension{".coff", MeshFormat::off},  Extension{".noff", MeshFormat::off},
+                                   Extension{".cnoff", MeshFormat::off}, Extension{".stoff", MeshFormat::off},
+                                   Extension{".obj", MeshFormat::obj},   Extension{".ply", MeshFormat::ply},
+                                   Extension{".stl", MeshFormat::stl},   Extension{".xyz", MeshFormat::xyz},
+                                   Extension{".pts", MeshFormat::xyz},   Extension{".pwn", MeshFormat::xyz}};
+
+std::string lower_extension(std::filesystem::path path) {
+  const auto extension = [&path] {
+    std::string text = path.extension().string();
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
+    return text;
+  };
+  std::string text = extension();
+  if (text == ".gz") {
+    path = path.stem();
+    text = extension();
+  }
+  return text;
+}
+
+MeshFormat sniff(std::string_view content) {
+  TextCursor text(content, '#');
+  const std::string_view word = text.token();
+  if (word == "ply") return MeshFormat::ply;
+  if (word.ends_with("OFF")) return MeshFormat::off;
+  if (word == "solid") return MeshFormat::stl;
+  if (word == "v" || word == "vn" || word == "vt" || word == "mtllib" || word == "o" || word == "g")
+    return MeshFormat::obj;
+  if (content.substr(0, 1024).find('\0') != std::string_view::npos) return MeshFormat::stl;
+  return MeshFormat::xyz;
+}
+
+MeshFormat format_of(const std::string& path, std::string_view content) {
+  const std::string extension = lower_extension(path);
+  for (const Extension& known : extensions) {
+    if (known.name == extension) return known.format ? *known.format : sniff(content);
+  }
+  throw InputError("the file \"" + path + "\" has the unknown extension \"" + extension + "\"",
+                   "readable are .off .obj .ply .stl .xyz .pts .pwn, each also with .gz");
+}
+
+std::vector<Index> first_equal_triangle(const std::vector<Triangle>& triangles) {
+  const auto sorted = [&](std::size_t i) {
+    Triangle t = triangles[i];
+    if (t[0] > t[1]) std::swap(t[0], t[1]);
+    if (t[1] > t[2]) std::swap(t[1], t[2]);
+    if (t[0] > t[1]) std::swap(t[0], t[1]);
+    return t;
+  };
+  return first_equal(
+      triangles.size(),
+      [&](std::size_t i) {
+        const Triangle t = sorted(i);
+        return mix_hash(
+            mix_hash(mix_hash(0, static_cast<std::uint64_t>(t[0])), static_cast<std::uint64_t>(t[1])),
+            static_cast<std::uint64_t>(t[2]));
+      },
+      [&](std::size_t a, std::size_t b) { return sorted(a) == sorted(b); });
+}
+
+std::string counted(std::int64_t n, const char* one, const char* many) {
+  return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
+/// The normals of the kept vertices as unit vectors; empty when one of them has none.
+std::vector<Vec3> unit_normals(const RawModel& model, const std::vector<Index>& kept, Monitor& monitor) {
+  std::vector<Vec3> normals;
+  if (model.normals.empty()) return normals;
+  normals.reserve(kept.size());
+  for (const Index v : kept) {
+    const Vec3& normal = model.normals[static_cast<std::size_t>(v)];
+    // Scaled first, so that the square neither overflows nor vanishes.
+    const double largest = std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)});
+    if (!is_finite(normal) || largest < std::numeric_limits<double>::min()) {
+      monitor.warn("vertex " + std::to_string(v) +
+                   " has no usable normal: the normals of the file are left out");
+      return {};
+    }
+    const Vec3 scaled{normal.x / largest, normal.y / largest, normal.z / largest};
+    normals.push_back((1 / length(scaled)) * scaled);
+  }
+  return normals;
+}
+
+MeshFile clean(RawModel model, Monitor& monitor) {
+  MeshFile result;
+  for (const std::string& warning : model.warnings) monitor.warn(warning);
+
+  for (Vec3& p : model.vertices) p = p + Vec3{0, 0, 0};  // -0 to 0: equal points have equal bytes
+  const std::vector<Index> first = first_equal_point(model.vertices);
+  for (std::size_t v = 0; v < first.size(); ++v) result.welded_vertices += first[v] != static_cast<Index>(v);
+  monitor.step(0.9);
+
+  result.degenerate_faces = model.small_faces;
+  std::erase_if(model.triangles, [&](Triangle& t) {
+    for (Index& v : t) v = first[static_cast<std::size_t>(v)];
+    const bool degenerate = t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+    result.degenerate_faces += degenerate;
+    return degenerate;
+  });
+  const std::vector<Index> first_triangle = first_equal_triangle(model.triangles);
+  std::vector<Triangle> triangles;
+  triangles.reserve(model.triangles.size());
+  for (std::size_t t = 0; t < model.triangles.size(); ++t) {
+    if (first_triangle[t] == static_cast<Index>(t)) triangles.push_back(model.triangles[t]);
+  }
+  result.repeated_faces = static_cast<std::int64_t>(model.triangles.size() - triangles.size());
+  monitor.step(0.95);
+
+  std::vector<bool> used(model.vertices.size(), triangles.empty());
+  for (const Triangle& t : triangles) {
+    for (const Index v : t) used[static_cast<std::size_t>(v)] = true;
+  }
+  std::vector<Index> kept, new_id(model.vertices.size(), none);
+  std::vector<Vec3> vertices;
+  for (std::size_t v = 0; v < model.vertices.size(); ++v) {
+    if (first[v] != static_cast<Index>(v)) continue;
+    if (!used[v]) {
+      ++result.unused_vertices;
+      continue;
+    }
+    new_id[v] = static_cast<Index>(kept.size());
+    kept.push_back(static_cast<Index>(v));
+    vertices.push_back(model.vertices[v]);
+  }
+  for (Triangle& t : triangles) {
+    for (Index& v : t) v = new_id[static_cast<std::size_t>(v)];
+  }
+
+  if (result.welded_vertices != 0) {
+    monitor.warn(counted(result.welded_vertices, "vertex equals an earlier one and is",
+                         "vertices equal earlier ones and are") +
+                 " welded to it");
+  }
+  if (result.degenerate_faces != 0) {
+    monitor.warn(counted(result.degenerate_faces, "degenerate face is", "degenerate faces are") + " dropped");
+  }
+  if (result.repeated_faces != 0) {
+    monitor.warn(counted(result.repeated_faces, "repeated face is", "repeated faces are") + " dropped");
+  }
+  if (result.unused_vertices != 0) {
+    monitor.warn(counted(result.unused_vertices, "vertex belongs to no face and is no sample",
+                         "vertices belong to no face and are not samples"));
+  }
+  if (model.faces != 0 && triangles.empty()) {
+    monitor.warn("all " + counted(model.faces, "face is", "faces are") +
+                 " degenerate: the model is read as points");
+  }
+
+  require_space_filling(vertices);
+  result.points.normals = unit_normals(model, kept, monitor);
+  result.points.points = std::move(vertices);
+  if (!triangles.empty()) {
+    result.mesh.vertices = result.points.points;
+    result.mesh.triangles = std::move(triangles);
+  }
+  return result;
+}
+
+}  // namespace
+
+MeshFile parse_mesh(std::string_view content, MeshFormat format, Monitor& monitor) {
+  static constexpr std::array parsers = {parse_off, parse_obj, parse_ply, parse_stl, parse_xyz};
+  return clean(parsers[static_cast<std::size_t>(format)](content, monitor), monitor);
+}
+
+MeshFile read_mesh_file(const std::string& path, const ReadOptions& options, Monitor& monitor) {
+  const FileContent content = read_file_content(path, options.max_unpacked_bytes);
+  return parse_mesh(content.view(), format_of(path, content.view()), monitor);
+}
+
+}  // namespace ballflow::geometry

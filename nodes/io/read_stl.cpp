@@ -1,0 +1,163 @@
+// STL, ASCII and binary. Facet normals are not vertex normals and are passed over.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include "io/raw_model.hpp"
+#include "io/text_cursor.hpp"
+
+namespace ballflow::geometry {
+namespace {
+
+constexpr std::size_t header_bytes = 84, facet_bytes = 50;
+
+std::uint32_t little_endian_u32(const char* p) {
+  const auto byte = [p](int i) { return static_cast<std::uint32_t>(static_cast<unsigned char>(p[i])); };
+  return byte(0) | byte(1) << 8 | byte(2) << 16 | byte(3) << 24;
+}
+
+double little_endian_f32(const char* p) {
+  return static_cast<double>(std::bit_cast<float>(little_endian_u32(p)));
+}
+
+void add_facet(RawModel& model, const std::array<Vec3, 3>& facet) {
+  const auto first = static_cast<std::int32_t>(model.vertices.size());
+  for (const Vec3& p : facet) add_vertex(model, p);
+  add_polygon(model, std::array<std::int32_t, 3>{first, first + 1, first + 2});
+}
+
+/// Binary files may begin with "solid", too: then the length, which follows from the number of facets, or a
+/// zero byte gives them away.
+bool is_binary(std::string_view content) {
+  if (content.size() >= header_bytes) {
+    const std::uint64_t facets = little_endian_u32(content.data() + 80);
+    if (content.size() == header_bytes + facets * facet_bytes) return true;
+  }
+  const std::size_t word = std::min(content.find_first_not_of(" \t\r\n"), content.size());
+  std::string start(content.substr(word, 5));
+  std::transform(start.begin(), start.end(), start.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
+  return start != "solid" || content.substr(0, 1024).find('\0') != std::string_view::npos;
+}
+
+RawModel parse_binary(std::string_view content, Monitor& monitor) {
+  RawModel model;
+  if (content.size() < header_bytes) {
+    throw InputError("the STL file has " + std::to_string(content.size()) +
+                         " bytes, fewer than the header of a binary one",
+                     "is it an STL file? A text file begins with \"solid\"");
+  }
+  const std::int64_t facets = little_endian_u32(content.data() + 80);
+  const std::size_t left = content.size() - header_bytes;
+  require_room(facets, facet_bytes, left, "facets");
+  if (const std::size_t extra = left - static_cast<std::size_t>(facets) * facet_bytes; extra != 0) {
+    model.warnings.push_back(std::to_string(extra) + " bytes after the last facet are passed over");
+  }
+  model.vertices.reserve(static_cast<std::size_t>(facets) * 3);
+  model.triangles.reserve(static_cast<std::size_t>(facets));
+  for (std::int64_t f = 0; f < facets; ++f) {
+    if (f % elements_per_step == 0) monitor.step(static_cast<double>(f) / static_cast<double>(facets));
+    const char* at = content.data() + header_bytes + static_cast<std::size_t>(f) * facet_bytes + 12;
+    std::array<Vec3, 3> facet;
+    for (Vec3& p : facet) {
+      p = {little_endian_f32(at), little_endian_f32(at + 4), little_endian_f32(at + 8)};
+      require_finite(p, "facet", f);
+      at += 12;
+    }
+    add_facet(model, facet);
+  }
+  return model;
+}
+
+class AsciiParser {
+ public:
+  AsciiParser(std::string_view content, Monitor& monitor)
+      : text_(content), size_(content.size()), monitor_(monitor) {}
+
+  RawModel parse() {
+    while (solid()) {
+    }
+    return std::move(model_);
+  }
+
+ private:
+  bool is(std::string_view token, std::string_view keyword) const {
+    return token.size() == keyword.size() &&
+           std::equal(token.begin(), token.end(), keyword.begin(),
+                      [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + 32 : a) == b; });
+  }
+  void expect(std::string_view keyword) {
+    const std::string_view token = text_.token();
+    if (is(token, keyword)) return;
+    throw InputError("facet " + std::to_string(model_.faces) + ": \"" + std::string(keyword) +
+                         "\" expected, found " + (token.empty() ? "the end of the file" : excerpt(token)) +
+                         text_.place_of(token),
+                     "the file is cut off or damaged; fetch or write it again");
+  }
+
+  /// solid NAME facet... endsolid NAME; false at the end of the text.
+  bool solid() {
+    std::string_view token = text_.token();
+    if (token.empty()) return false;
+    if (!is(token, "solid")) {
+      throw InputError(
+          "\"solid\" expected after the last facet, found " + excerpt(token) + text_.place_of(token),
+          "the file is damaged; fetch or write it again");
+    }
+    text_.next_line();
+    for (;;) {
+      token = text_.token();
+      if (is(token, "endsolid")) break;
+      if (token.empty()) {
+        throw InputError(
+            "the STL file ends after facet " + std::to_string(model_.faces) + " without \"endsolid\"",
+            "the file is cut off; fetch or write it again");
+      }
+      if (!is(token, "facet")) {
+        throw InputError("facet " + std::to_string(model_.faces) +
+                             ": \"facet\" or \"endsolid\" expected, found " + excerpt(token) +
+                             text_.place_of(token),
+                         "the file is damaged; fetch or write it again");
+      }
+      facet();
+    }
+    text_.next_line();
+    return true;
+  }
+
+  void facet() {
+    if (model_.faces % elements_per_step == 0) {
+      monitor_.step(static_cast<double>(text_.offset()) / static_cast<double>(size_));
+    }
+    text_.next_line();  // the normal
+    expect("outer");
+    expect("loop");
+    std::array<Vec3, 3> corners;
+    for (Vec3& p : corners) {
+      expect("vertex");
+      const auto coordinate = [this](const char* name) {
+        return parse_coordinate(text_, text_.token_on_line(), "facet", model_.faces, name);
+      };
+      p.x = coordinate("x");
+      p.y = coordinate("y");
+      p.z = coordinate("z");
+    }
+    expect("endloop");
+    expect("endfacet");
+    add_facet(model_, corners);
+  }
+
+  TextCursor text_;
+  std::size_t size_;
+  Monitor& monitor_;
+  RawModel model_;
+};
+
+}  // namespace
+
+RawModel parse_stl(std::string_view content, Monitor& monitor) {
+  return is_binary(content) ? parse_binary(content, monitor) : AsciiParser(content, monitor).parse();
+}
+
+}  // namespace ballflow::geometry

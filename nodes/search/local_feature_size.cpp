@@ -1,0 +1,61 @@
+#include "search/local_feature_size.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "search/nearest_tree.hpp"
+
+namespace ballflow::geometry {
+
+LocalFeatureSize local_feature_size(const PointSet& sample, const PoleSet& poles, Monitor& monitor) {
+  const std::size_t n = sample.points.size();
+  if (poles.sample_poles.size() != n) {
+    throw InputError("the poles are those of " + std::to_string(poles.sample_poles.size()) +
+                         " samples, but there are " + std::to_string(n),
+                     "connect the points that the poles were computed from");
+  }
+  std::vector<Vec3> centers;
+  std::vector<Box> boxes;
+  // The two poles of Amenta and Bern: third poles depend on labels, and there are none before LabelPoles.
+  std::vector<std::uint8_t> pole(poles.size());
+  for (const auto& own : poles.sample_poles) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (own[k] >= 0) pole[static_cast<std::size_t>(own[k])] = 1;
+    }
+  }
+  for (std::size_t i = 0; i < poles.size(); ++i) {
+    if (pole[i] == 0) continue;
+    centers.push_back(poles.centers[i]);
+    boxes.push_back({poles.centers[i], poles.centers[i]});
+  }
+  if (centers.empty() && n > 0) {
+    throw InputError("no sample has a pole", "the poles are damaged: compute them again");
+  }
+  monitor.step(0.1);
+  const NearestTree tree(boxes);
+  monitor.step(0.3);
+  std::vector<double> distances(n);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 1024), [&](const auto& range) {
+    if (monitor.cancelled()) throw Cancelled();
+    for (std::size_t s = range.begin(); s != range.end(); ++s) {
+      const Vec3 p = sample.points[s];
+      constexpr double infinity = std::numeric_limits<double>::infinity();
+      distances[s] =
+          tree.smallest(p, infinity, -infinity, [&](std::size_t i) { return distance(p, centers[i]); });
+    }
+  });
+  for (std::size_t s = 0; s < n; ++s) {
+    if (distances[s] > 0) continue;
+    throw InputError("a pole lies at sample " + std::to_string(s),
+                     "scale the model up: its features are beyond the resolution of doubles");
+  }
+  monitor.step(1);
+  return {sample.points, std::move(distances)};
+}
+
+}  // namespace ballflow::geometry

@@ -1,0 +1,165 @@
+#include "search/surface_chain.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include "base/disjoint_sets.hpp"
+
+namespace ballflow::geometry {
+
+namespace {
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+// A side of a triangle, kept with the smaller of its two vertices.
+struct Side {
+  std::int32_t larger;  // vertex
+  std::int32_t triangle;
+  bool forward;  // the triangle runs through the edge from the smaller to the larger vertex
+
+  friend bool operator<(const Side& a, const Side& b) {
+    return std::pair(a.larger, a.triangle) < std::pair(b.larger, b.triangle);
+  }
+};
+
+class Edges {
+ public:
+  Edges(const std::vector<Triangle>& triangles, std::size_t vertices) : first_(vertices + 1, 0) {
+    for_each_side(triangles, [&](std::int32_t smaller, const Side&) { ++first_[at(smaller) + 1]; });
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    sides_.resize(triangles.size() * 3);
+    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+    for_each_side(triangles,
+                  [&](std::int32_t smaller, const Side& side) { sides_[next[at(smaller)]++] = side; });
+    for (std::size_t v = 0; v < vertices; ++v) {
+      std::sort(sides_.begin() + static_cast<std::ptrdiff_t>(first_[v]),
+                sides_.begin() + static_cast<std::ptrdiff_t>(first_[v + 1]));
+    }
+  }
+
+  // Calls visit(smaller vertex, larger vertex, sides) for every edge, ascending.
+  template <class Visit>
+  void for_each(Visit visit) {
+    for (std::size_t v = 0; v + 1 < first_.size(); ++v) {
+      for (std::size_t i = first_[v]; i < first_[v + 1];) {
+        std::size_t j = i + 1;
+        while (j < first_[v + 1] && sides_[j].larger == sides_[i].larger) ++j;
+        visit(static_cast<std::int32_t>(v), sides_[i].larger, std::span<Side>(sides_).subspan(i, j - i));
+        i = j;
+      }
+    }
+  }
+
+ private:
+  template <class Visit>
+  static void for_each_side(const std::vector<Triangle>& triangles, Visit visit) {
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::int32_t u = triangles[t][k], v = triangles[t][(k + 1) % 3];
+        visit(std::min(u, v), Side{std::max(u, v), static_cast<std::int32_t>(t), u < v});
+      }
+    }
+  }
+
+  std::vector<std::size_t> first_;  // per vertex
+  std::vector<Side> sides_;
+};
+
+std::int64_t balance(std::span<const Side> sides) {
+  std::int64_t sum = 0;
+  for (const Side& side : sides) sum += side.forward ? 1 : -1;
+  return sum;
+}
+
+// Turns triangles over so that neighbours at edges of two triangles agree; returns how many.
+std::int64_t make_consistent(std::vector<Triangle>& triangles, Edges& edges) {
+  struct Neighbour {
+    std::int32_t triangle = -1;
+    bool agrees = true;
+  };
+  std::vector<std::array<Neighbour, 3>> neighbours(triangles.size());
+  const auto link = [&](std::int32_t from, std::int32_t to, bool agrees) {
+    for (Neighbour& slot : neighbours[at(from)]) {
+      if (slot.triangle >= 0) continue;
+      slot = {to, agrees};
+      return;
+    }
+  };
+  edges.for_each([&](std::int32_t, std::int32_t, std::span<Side> sides) {
+    if (sides.size() != 2) return;
+    const bool agrees = sides[0].forward != sides[1].forward;
+    link(sides[0].triangle, sides[1].triangle, agrees);
+    link(sides[1].triangle, sides[0].triangle, agrees);
+  });
+  enum : std::uint8_t { unseen, kept, turn };
+  std::vector<std::uint8_t> state(triangles.size(), unseen);
+  std::vector<std::int32_t> piece;
+  std::int64_t turned = 0;
+  for (std::size_t seed = 0; seed < triangles.size(); ++seed) {
+    if (state[seed] != unseen) continue;
+    state[seed] = kept;
+    piece.assign(1, static_cast<std::int32_t>(seed));
+    std::size_t turns = 0;
+    for (std::size_t head = 0; head < piece.size(); ++head) {
+      const std::int32_t t = piece[head];
+      for (const Neighbour& n : neighbours[at(t)]) {
+        if (n.triangle < 0 || state[at(n.triangle)] != unseen) continue;
+        state[at(n.triangle)] = (state[at(t)] == kept) == n.agrees ? kept : turn;
+        turns += state[at(n.triangle)] == turn ? 1U : 0U;
+        piece.push_back(n.triangle);
+      }
+    }
+    const bool minority = 2 * turns <= piece.size();  // turn the fewer ones
+    for (const std::int32_t t : piece) {
+      if ((state[at(t)] == turn) != minority) continue;
+      std::swap(triangles[at(t)][1], triangles[at(t)][2]);
+      ++turned;
+    }
+  }
+  return turned;
+}
+
+void number_components(SurfaceChain& chain, Edges& edges) {
+  DisjointSets connected(chain.triangles.size());
+  edges.for_each([&](std::int32_t, std::int32_t, std::span<Side> sides) {
+    for (std::size_t k = 1; k < sides.size(); ++k) connected.join(sides[0].triangle, sides[k].triangle);
+  });
+  chain.component.assign(chain.triangles.size(), -1);
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(chain.triangles.size()); ++t) {
+    const std::int32_t r = connected.root(t);
+    chain.component[at(t)] = r == t ? chain.components++ : chain.component[at(r)];
+  }
+}
+
+}  // namespace
+
+SurfaceChain surface_chain(const TriangleMesh& mesh) {
+  SurfaceChain chain;
+  chain.triangles.reserve(mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) {
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) chain.triangles.push_back(t);
+  }
+  Edges edges(chain.triangles, mesh.vertices.size());
+  bool balanced = true;
+  edges.for_each([&](std::int32_t, std::int32_t, std::span<Side> sides) {
+    if (sides.size() == 1) ++chain.boundary_edges;
+    if (sides.size() > 2) ++chain.nonmanifold_edges;
+    if (balance(sides) != 0) balanced = false;
+  });
+  number_components(chain, edges);
+  if (balanced) return chain;
+
+  chain.turned = make_consistent(chain.triangles, edges);
+  if (chain.turned > 0) edges = Edges(chain.triangles, mesh.vertices.size());
+  edges.for_each([&](std::int32_t u, std::int32_t v, std::span<Side> sides) {
+    const std::int64_t sum = balance(sides);
+    if (sides.size() == 2 && sum != 0) ++chain.contradictions;
+    for (std::int64_t k = 0; k < sum; ++k) chain.boundary.push_back({u, v});
+    for (std::int64_t k = 0; k < -sum; ++k) chain.boundary.push_back({v, u});
+  });
+  return chain;
+}
+
+}  // namespace ballflow::geometry

@@ -1,0 +1,55 @@
+// Balls returned after pruning, so that the union has its old topology again (thesis, 3.6.5).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/monitor.hpp"
+#include "types/balls.hpp"
+#include "types/cover_state.hpp"
+#include "types/topology_check.hpp"
+
+namespace ballflow::geometry {
+
+enum class RepairMethod {
+  localised,  // few balls near what is wrong
+  literal,    // Listing 3.2 of the thesis; for small sets
+};
+
+struct TopologyRepairOptions {
+  RepairMethod method = RepairMethod::localised;
+  // How many sets of balls may be looked at when superfluous balls are taken out again; 0 keeps them all.
+  std::int64_t attempts = 200;
+};
+
+struct TopologyRepair {
+  std::vector<std::int32_t> returned;  // ascending ids
+  TopologyCheck check;
+};
+
+/// `cover` with the balls that were returned chosen as well (Choice::returned), ascending, after the others.
+CoverState with_returned(const CoverState& cover, std::span<const std::int32_t> returned);
+
+/// Balls of `balls` (U+) to be returned to those with the ids `kept` (U*), so that the inclusion of the union
+/// in U+ induces isomorphisms of homology over Z/2: compared in the end, whatever the method did (see
+/// inclusion_homology.hpp). Nothing is returned when it does so already.
+///
+/// `localised` looks at what differs. Parts of a component are joined, and lost loops closed, by shortest
+/// paths of balls of U+. Where U* has a loop or a void that U+ has filled, or one void instead of two, balls
+/// around the place are returned, twice as many when the place is met again. Then blocks of returned
+/// balls are taken out again as long as the inclusion stays an isomorphism. In the worst case every ball
+/// comes back, which the check says.
+/// - Radii are taken as they are: use enlarged balls.
+/// - `kept` ascends. Throws InputError for ids out of order or out of range, for balls that break their
+///   invariants, and for more than 2000 balls with method literal.
+/// - The same for any number of threads.
+TopologyRepair repair_topology(const Balls& balls, std::span<const std::int32_t> kept,
+                               const TopologyRepairOptions& options, Monitor& monitor);
+
+/// The same for the balls that a cover chose. What was wrong is a warning in words. Throws InputError for a
+/// cover about another number of balls.
+TopologyRepair repair_topology(const Balls& balls, const CoverState& cover,
+                               const TopologyRepairOptions& options, Monitor& monitor);
+
+}  // namespace ballflow::geometry

@@ -1,0 +1,224 @@
+#include "io/load_balls.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace ballflow::geometry {
+namespace {
+
+struct Warnings final : Monitor {
+  std::string text;
+  void warn(const std::string& warning) override { text += warning + "\n"; }
+};
+
+std::string refusal(std::string_view content) {
+  try {
+    parse_balls(content);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+testing::AssertionResult names(const std::string& text, const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    if (text.find(word) == std::string::npos) {
+      return testing::AssertionFailure() << "\"" << text << "\" lacks \"" << word << "\"";
+    }
+  }
+  return testing::AssertionSuccess();
+}
+
+using Edges = Array<std::array<std::int32_t, 2>>;
+using Indices = Array<std::int32_t>;
+
+const Array<Vec3> three_centers = {{0, 0, 0}, {1, 0, 0}, {0.1, -1.0 / 3, 1e-300}};
+const Array<double> three_radii = {1, 0.5, 0.1};
+const std::string three_rows = "0 0 0 1\n1 0 0 0.5\n0.1 -0.3333333333333333 1e-300 .1\n";
+
+void expect_three(const LoadedBalls& loaded) {
+  EXPECT_EQ(loaded.balls.centers, three_centers);
+  EXPECT_EQ(loaded.balls.radii, three_radii);
+  EXPECT_EQ(broken_invariant(loaded.balls), "");
+  EXPECT_EQ(broken_invariant(loaded.axis), "");
+}
+
+std::string replaced(std::string text, char from, char to) {
+  std::replace(text.begin(), text.end(), from, to);
+  return text;
+}
+
+TEST(load_balls, reads_equal_balls_from_every_way_of_listing_them) {
+  std::string with_v;
+  for (std::size_t at = 0; at < three_rows.size();) {
+    const std::size_t end = three_rows.find('\n', at) + 1;
+    with_v += "v " + three_rows.substr(at, end - at);
+    at = end;
+  }
+  for (const std::string& text :
+       {"3\n" + three_rows,                                           // sph of Q-MAT
+        "4 3\n" + three_rows,                                         // sph of MATTopo
+        "# a comment\n\n3   # balls\r\n" + three_rows + "\n# end\n",  // between the lines
+        "0. 0 0 1" + three_rows.substr(7),                            // rows
+        replaced("0.0 0 0 1" + three_rows.substr(7), ' ', ','), "x,y,z,r\n" + replaced(three_rows, ' ', ','),
+        "X;Y;Z;radius\n" + replaced(three_rows, ' ', ';'), with_v, "3 0 0\n" + with_v}) {
+    SCOPED_TRACE(text);
+    expect_three(parse_balls(text));
+  }
+  expect_three(load_balls({"balls:" + replaced(three_rows, '\n', ';')}));
+  EXPECT_EQ(parse_balls("3\n" + three_rows).axis.vertices.size(), 0u);
+}
+
+TEST(load_balls, reads_whole_numbers_as_balls_when_there_are_four_in_a_line) {
+  const LoadedBalls loaded = parse_balls("1 2 3 4\n5 6 7 8\n");
+  EXPECT_EQ(loaded.balls.centers, (Array<Vec3>{{1, 2, 3}, {5, 6, 7}}));
+  EXPECT_EQ(loaded.balls.radii, (Array<double>{4, 8}));
+}
+
+TEST(load_balls, reads_radii_of_a_binary_ply_file_to_the_last_bit) {
+  std::string text =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
+      "property double z\nproperty double radius\nproperty uchar label\nend_header\n";
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double values[] = {three_centers[i].x, three_centers[i].y, three_centers[i].z, three_radii[i]};
+    text.append(reinterpret_cast<const char*>(values), sizeof values);
+    text += '\1';
+  }
+  expect_three(parse_balls(text));
+}
+
+const std::string header_of_ply =
+    "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
+
+TEST(load_balls, refuses_ply_without_radii_and_with_bad_ones) {
+  EXPECT_TRUE(names(refusal(header_of_ply + "property uchar r\nend_header\n0 0 0 255\n"),
+                    {"no property \"radius\"", "Sample"}));
+  EXPECT_TRUE(names(refusal(header_of_ply + "property float radius\nend_header\n0 0 0 -2\n"),
+                    {"vertex 0", "radius is -2"}));
+  EXPECT_TRUE(
+      names(refusal(header_of_ply + "property float radius\nend_header\n0 0 0 nan\n"), {"vertex 0", "nan"}));
+}
+
+/// A tetrahedron's surface less one side, an edge that hangs on it, and a lone vertex.
+const std::string fin =
+    "6 7 3\nv 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\nv 0 0 1 1\nv 2 0 0 0.5\nv 9 9 9 0\n"
+    "e 0 1\ne 1 2\ne 2 0\ne 3 0\ne 1 3\ne 3 2\ne 4 1\nf 0 1 2\nf 0 3 1\nf 3 2 1\n";
+
+TEST(load_balls, reads_a_medial_axis_with_edges_that_bound_nothing) {
+  Warnings warnings;
+  const LoadedBalls loaded = parse_balls(fin, warnings);
+  EXPECT_EQ(warnings.text, "");
+  EXPECT_EQ(loaded.balls.size(), 6u);
+  EXPECT_EQ(loaded.axis.vertices, loaded.balls.centers);
+  EXPECT_EQ(loaded.axis.radii, loaded.balls.radii);
+  EXPECT_EQ(loaded.axis.edges, (Edges{{4, 1}}));
+  EXPECT_EQ(loaded.axis.polygon_vertices, (Indices{0, 1, 2, 0, 3, 1, 3, 2, 1}));
+  EXPECT_EQ(loaded.axis.polygon_kinds, (Array<std::uint8_t>{0, 0, 0}));
+  EXPECT_EQ(broken_invariant(loaded.axis), "");
+  const AxisTopology topology = axis_topology(loaded.axis);
+  EXPECT_EQ(topology.components, 2);
+  EXPECT_EQ(topology.euler_characteristic, 6 - 7 + 3);
+}
+
+TEST(load_balls, leaves_out_what_matfp_marks_as_deleted) {
+  Warnings warnings;
+  const LoadedBalls loaded = parse_balls(
+      "5 5 2\nv 0 0 0 1 2 0\nv 7 7 7 1 0 1\nv 1 0 0 1 2 0\nv 0 1 0 1 2 0\nv 0 0 1 1 3 0\n"
+      "e 0 2 0 0\ne 2 3 1 0\ne 3 0 2 0\ne 0 4 0 0\ne 2 4 0 1\nf 0 2 3 0\nf 2 3 4 1\n",
+      warnings);
+  EXPECT_EQ(warnings.text, "");
+  EXPECT_EQ(loaded.balls.centers, (Array<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
+  EXPECT_EQ(loaded.axis.edges, (Edges{{0, 3}}));
+  EXPECT_EQ(loaded.axis.polygon_vertices, (Indices{0, 1, 2}));
+  EXPECT_EQ(broken_invariant(loaded.axis), "");
+  EXPECT_EQ(parse_balls("4 2\n0 0 0 1 3 0 1\n1 1 1 1 3 1 1\n").balls.size(), 1u);
+}
+
+TEST(load_balls, drops_repeated_and_degenerate_elements_with_a_warning) {
+  Warnings warnings;
+  const LoadedBalls loaded = parse_balls(
+      "4 3 3\nv 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\nv 5 5 5 1\ne 3 0\ne 0 3\ne 2 2\nf 0 1 2\nf 2 0 1\nf 1 1 3\n",
+      warnings);
+  EXPECT_TRUE(names(warnings.text, {"2 edges", "2 triangles"}));
+  EXPECT_EQ(loaded.axis.edges, (Edges{{3, 0}}));
+  EXPECT_EQ(loaded.axis.polygon_vertices, (Indices{0, 1, 2}));
+  EXPECT_EQ(broken_invariant(loaded.axis), "");
+}
+
+TEST(load_balls, passes_over_named_columns_after_the_radius) {
+  Warnings warnings;
+  const LoadedBalls loaded = parse_balls("x,y,z,r,label\n0,0,0,1,2\n3,4,5,6,1\n", warnings);
+  EXPECT_EQ(loaded.balls.radii, (Array<double>{1, 6}));
+  EXPECT_TRUE(names(warnings.text, {"columns 5 and up"}));
+}
+
+TEST(load_balls, names_element_and_line_of_what_is_wrong) {
+  // rows
+  EXPECT_TRUE(names(refusal("0. 0 0 1\n0 0 0 -2\n"), {"ball 1", "\"-2\"", "line 2"}));
+  EXPECT_TRUE(names(refusal("0. 0 0 1\n0 0 0\n"), {"ball 1", "r is missing", "line 2"}));
+  EXPECT_TRUE(names(refusal("0. 0 0 1 5\n"), {"ball 0", "\"5\" follows", "line 1"}));
+  EXPECT_TRUE(names(refusal("0. nan 0 1\n"), {"ball 0", "y is nan", "line 1"}));
+  EXPECT_TRUE(names(refusal("0. 0 0 inf\n"), {"ball 0", "r is inf", "line 1"}));
+  EXPECT_TRUE(names(refusal("0. 0 0 1e999\n"), {"ball 0", "not a number", "line 1"}));
+  EXPECT_TRUE(names(refusal("x,y,z,nx,ny,nz\n0,0,0,1,0,0\n"), {"\"nx\"", "\"r\" should be", "line 1"}));
+  EXPECT_TRUE(names(refusal("x,y,z,r\n"), {"no ball"}));
+  EXPECT_TRUE(names(refusal(""), {"no ball"}));
+  EXPECT_TRUE(names(refusal("# none\n"), {"no ball"}));
+  EXPECT_TRUE(names(refusal("//Maya ASCII 2018 scene\n"), {"\"//Maya\"", "line 1", "readable are"}));
+  EXPECT_TRUE(names(refusal("OFF\n3 1 0\n"), {"\"OFF\"", "readable are"}));
+  EXPECT_TRUE(names(refusal("0.5 1 2\n"), {"r is missing", "line 1"}));
+  EXPECT_TRUE(names(refusal("7 9\n1 2 3 4\n"), {"\"7\"", "line 1"}));
+  // sph
+  EXPECT_TRUE(names(refusal("2\n0 0 0 1\n"), {"promises 2 balls", "ends after at most 1"}));
+  EXPECT_TRUE(names(refusal("2\n0.125 0.25 0.5 1\n"), {"ends after 1 of 2 balls", "line 3"}));
+  EXPECT_TRUE(names(refusal("1\n0 0 0 1\n0 0 0 1\n"), {"\"0\" follows", "1 balls", "line 3"}));
+  EXPECT_TRUE(names(refusal("1\n0 0 0 1 0 2\n"), {"ball 0", "\"2\"", "0 or 1", "line 2"}));
+  EXPECT_TRUE(names(refusal("1\n0 0 0 1 0 0 0 0\n"), {"ball 0", "one number too many", "line 2"}));
+  EXPECT_TRUE(names(refusal("9000000000000000000\n0 0 0 1\n"), {"promises 9000000000000000000 balls"}));
+  EXPECT_TRUE(names(refusal("-1\n0 0 0 1\n"), {"promises -1 balls"}));
+  EXPECT_TRUE(names(refusal("0\n"), {"no ball"}));
+  EXPECT_TRUE(names(refusal("4 1\n0 0 0 1 0 1\n"), {"no ball"})) << "the only one is deleted";
+  // ma
+  EXPECT_TRUE(names(refusal("1 0 0\nv 0 0 0 -1\n"), {"vertex 0", "\"-1\"", "line 2"}));
+  EXPECT_TRUE(names(refusal("1 0 0\nv 0 0 0 1 2.5\n"), {"vertex 0", "\"2.5\"", "line 2"}));
+  EXPECT_TRUE(names(refusal("2 0 0\nv 0 0 0 1\nv 0 0 0   \n"), {"vertex 1", "r is missing", "line 3"}));
+  EXPECT_TRUE(names(refusal("2 0 0\nv 0 0 0 1\n     \n    "), {"vertex 1", "the file ends", "promises 2"}));
+  EXPECT_TRUE(
+      names(refusal("2 1 0\nv 0 0 0 1\nv 1 0 0 1\ne 0 2\n"), {"edge 0", "index 2", "2 vertices", "line 4"}));
+  EXPECT_TRUE(names(refusal("2 1 0\nv 0 0 0 1\nv 1 0 0 1\ne 0 -1\n"), {"edge 0", "index -1", "line 4"}));
+  EXPECT_TRUE(
+      names(refusal("2 1 0\nv 0 0 0 1\nv 1 0 0 1\ne 0    \n"), {"edge 0", "index is missing", "line 4"}));
+  EXPECT_TRUE(names(refusal("2 1 0\nv 0 0 0 1\nv 1 0 0 1\nf 0 1 1\n"),
+                    {"edge 0", "\"f\"", "\"e\" should be", "line 4"}));
+  EXPECT_TRUE(names(refusal("3 0 1\nv 0 0 0 1\nv 1 0 0 1\nv 2 0 0 1\nf 0 1 2 7\n"),
+                    {"face 0", "\"7\"", "0 or 1", "line 5"}));
+  EXPECT_TRUE(names(refusal("2 1 0\nv 0 0 0 1\nv 1 0 0 1 0 1\ne 0 1\n"),
+                    {"edge 0", "vertex 1 is marked as deleted", "line 4"}));
+  EXPECT_TRUE(names(refusal("1 0 0\nv 0 0 0 1\nv 1 0 0 1\n"), {"\"v\" follows", "line 3"}));
+  EXPECT_TRUE(names(refusal("1 0 99999999\nv 0 0 0 1\n"), {"promises 99999999 triangles"}));
+  EXPECT_TRUE(names(refusal("0 0 0\n"), {"no ball"}));
+}
+
+TEST(load_balls, names_the_ball_of_a_list_in_the_parameter) {
+  try {
+    load_balls({"balls:0 0 0 1; 0 0 0"});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_TRUE(names(error.what(), {"ball 1", "r is missing"}));
+  }
+  EXPECT_THROW(load_balls({"balls:"}), InputError);
+  EXPECT_THROW(load_balls({"/no/such/file.ma"}), InputError);
+}
+
+TEST(load_balls, can_be_cancelled) {
+  struct Stop final : Monitor {
+    bool cancelled() override { return true; }
+  } stop;
+  EXPECT_THROW(parse_balls("3\n" + three_rows, stop), Cancelled);
+}
+
+}  // namespace
+}  // namespace ballflow::geometry

@@ -1,0 +1,270 @@
+#include "measure/compare.hpp"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <atomic>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+
+namespace ballflow::geometry {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+double unit(std::mt19937& random) { return random() / 4294967296.0; }
+
+/// The surface of [-1, 1]^3.
+TriangleMesh cube() {
+  std::vector<Vec3> vertices;
+  for (int k = 0; k < 8; ++k)
+    vertices.push_back({k & 1 ? 1.0 : -1.0, k & 2 ? 1.0 : -1.0, k & 4 ? 1.0 : -1.0});
+  return {vertices, std::vector<Triangle>{{0, 2, 1},
+                                          {1, 2, 3},
+                                          {4, 5, 6},
+                                          {5, 7, 6},
+                                          {0, 1, 4},
+                                          {1, 5, 4},
+                                          {2, 6, 3},
+                                          {3, 6, 7},
+                                          {0, 4, 2},
+                                          {2, 4, 6},
+                                          {1, 3, 5},
+                                          {3, 7, 5}}};
+}
+
+Balls balls_of(std::vector<Vec3> centers, std::vector<double> radii) {
+  return {std::move(centers), std::move(radii), {}, {}};
+}
+
+void expect_within(const OneSidedDistance& d, double truth) {
+  EXPECT_LE(d.at_least, truth * (1 + 1e-9));
+  EXPECT_GE(d.at_most, truth * (1 - 1e-9));
+}
+
+std::string refusal(const Balls& balls, const PointSet& points, const TriangleMesh& mesh,
+                    const CompareOptions& options = {}) {
+  try {
+    compare(balls, points, mesh, options);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(compare, ball_in_a_cube_has_the_distances_of_the_formulas) {
+  const CompareOptions options{.spacing = 1};
+  const Comparison c = compare(balls_of({{0, 0, 0}}, {1}), {}, cube(), options);
+  EXPECT_EQ(broken_invariant(c), "");
+  EXPECT_DOUBLE_EQ(c.spacing, 0.02);
+  // The corners are farthest from the ball, the point below a corner is farthest from the cube.
+  const double corner = std::sqrt(3.0) - 1, below = 1 - 1 / std::sqrt(3.0);
+  expect_within(c.surface_to_union, corner);
+  expect_within(c.union_to_surface, below);
+  EXPECT_NEAR(c.surface_to_union.value, corner, c.spacing);
+  EXPECT_NEAR(c.union_to_surface.value, below, c.spacing);
+  EXPECT_NEAR(c.hausdorff(), corner, c.spacing);
+  EXPECT_NEAR(c.uncovered, corner, c.spacing);
+  EXPECT_LT(c.coverage, 1e-3);
+  EXPECT_LT(c.protrusion, 1e-12);
+
+  // Mean of |x| - 1 over a face, and of 1 - max(|x|, |y|, |z|) over the sphere, by fine midpoint rules.
+  double face = 0, sphere = 0, area = 0;
+  constexpr int n = 400;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const double x = (i + 0.5) / n, y = (j + 0.5) / n, r = std::sqrt(1 + x * x + y * y);
+      face += (r - 1) / (n * n);
+      area += 1 / (r * r * r);  // the solid angle of a piece of the face
+      sphere += (1 - 1 / r) / (r * r * r);
+    }
+  }
+  EXPECT_NEAR(c.surface_to_union.mean, face, 1e-3);
+  EXPECT_NEAR(c.union_to_surface.mean, sphere / area, 1e-3);
+  EXPECT_DOUBLE_EQ(c.chamfer(), (c.surface_to_union.mean + c.union_to_surface.mean) / 2);
+
+  EXPECT_EQ(c.surface_encloses, 1);
+  EXPECT_DOUBLE_EQ(c.surface_volume, 8);
+  EXPECT_LE(c.union_volume_at_least, 4 * pi / 3);
+  EXPECT_GE(c.union_volume_at_most, 4 * pi / 3);
+  EXPECT_NEAR(c.union_volume, 4 * pi / 3, 1e-3);
+}
+
+TEST(compare, ball_through_the_faces_of_a_cube_covers_discs_and_protrudes) {
+  const Comparison c = compare(balls_of({{0, 0, 0}}, {1.25}), {}, cube(), {.spacing = 1});
+  EXPECT_NEAR(c.coverage, 6 * pi * (1.25 * 1.25 - 1) / 24, 2e-3);
+  EXPECT_NEAR(c.protrusion, 0.25, 1e-12);
+  expect_within(c.union_to_surface, std::max(0.25, 1 - 1.25 / std::sqrt(3.0)));
+  expect_within(c.surface_to_union, std::sqrt(3.0) - 1.25);
+}
+
+TEST(compare, sphere_and_its_own_sample_differ_by_the_gaps_of_the_sample) {
+  std::vector<Vec3> points;
+  std::mt19937 random(1);
+  while (points.size() < 4000) {
+    const Vec3 p{2 * unit(random) - 1, 2 * unit(random) - 1, 2 * unit(random) - 1};
+    if (const double l = length(p); l > 0.1 && l < 1) points.push_back((1 / l) * p);
+  }
+  const Comparison c = compare(balls_of({{0, 0, 0}}, {1}), {points, {}}, {}, {.spacing = 1});
+  EXPECT_EQ(c.surface_samples, 4000);
+  EXPECT_LT(c.surface_to_union.at_least, 1e-12) << "every point is on the sphere";
+  EXPECT_LT(c.surface_to_union.value, c.spacing);
+  EXPECT_EQ(c.coverage, 1);
+  EXPECT_EQ(c.uncovered, 0);
+  EXPECT_EQ(c.surface_encloses, 0);
+  // Brute force: the widest gap seen from many directions is not above the bound.
+  double widest = 0;
+  for (int k = 0; k < 2000; ++k) {
+    Vec3 p{2 * unit(random) - 1, 2 * unit(random) - 1, 2 * unit(random) - 1};
+    p = (1 / length(p)) * p;
+    double nearest = 4;
+    for (const Vec3& q : points) nearest = std::min(nearest, distance(p, q));
+    widest = std::max(widest, nearest);
+  }
+  EXPECT_LE(widest, c.union_to_surface.at_most);
+  EXPECT_GE(c.union_to_surface.at_least, widest - c.spacing);
+}
+
+TEST(compare, bounds_hold_for_unions_tried_point_by_point) {
+  std::mt19937 random(2);
+  for (int round = 0; round < 5; ++round) {
+    std::vector<Vec3> centers, points;
+    std::vector<double> radii;
+    for (int i = 0; i < 12; ++i) {
+      centers.push_back({unit(random), unit(random), unit(random)});
+      radii.push_back(0.15 + 0.3 * unit(random));
+    }
+    for (int j = 0; j < 200; ++j) points.push_back({unit(random), unit(random), unit(random)});
+    const Comparison c = compare(balls_of(centers, radii), {points, {}}, {}, {.spacing = 3});
+    ASSERT_EQ(broken_invariant(c), "");
+
+    std::vector<Vec3> boundary;
+    for (std::size_t i = 0; i < centers.size(); ++i) {
+      for (int k = 0; k < 3000; ++k) {
+        Vec3 p{2 * unit(random) - 1, 2 * unit(random) - 1, 2 * unit(random) - 1};
+        if (length(p) > 1) continue;
+        p = centers[i] + (radii[i] / length(p)) * p;
+        bool inside = false;
+        for (std::size_t j = 0; j < centers.size(); ++j) {
+          inside = inside || (j != i && distance(p, centers[j]) < radii[j]);
+        }
+        if (!inside) boundary.push_back(p);
+      }
+    }
+    double there = 0, back = 0, protrusion = 0;
+    for (const Vec3& p : points) {
+      double nearest = 9;
+      for (const Vec3& q : boundary) nearest = std::min(nearest, distance(p, q));
+      there = std::max(there, nearest);
+    }
+    const auto to_points = [&](Vec3 p) {
+      double nearest = 9;
+      for (const Vec3& q : points) nearest = std::min(nearest, distance(p, q));
+      return nearest;
+    };
+    for (const Vec3& q : boundary) back = std::max(back, to_points(q));
+    for (std::size_t i = 0; i < centers.size(); ++i) {
+      protrusion = std::max(protrusion, radii[i] - to_points(centers[i]));
+    }
+    EXPECT_GE(there, c.surface_to_union.at_least - 1e-12);
+    EXPECT_NEAR(there, c.surface_to_union.value, 2 * c.spacing);
+    EXPECT_LE(back, c.union_to_surface.at_most);
+    EXPECT_NEAR(back, c.union_to_surface.value, 2 * c.spacing);
+    EXPECT_DOUBLE_EQ(c.protrusion, protrusion);
+  }
+}
+
+TEST(compare, two_balls_have_the_volume_of_the_formula) {
+  // Unit balls at distance 1: two caps of height 1/2 are counted once.
+  const double truth = 2 * 4 * pi / 3 - 2 * (pi * 0.25 / 3 * (3 - 0.5));
+  const PointSet points{{Vec3{0, 0, 0}, Vec3{1, 0, 0}}, {}};
+  const Comparison c = compare(balls_of({{0, 0, 0}, {1, 0, 0}}, {1, 1}), points, {}, {.spacing = 2});
+  EXPECT_LE(c.union_volume_at_least, truth);
+  EXPECT_GE(c.union_volume_at_most, truth);
+  EXPECT_NEAR(c.union_volume, truth, 2e-3);
+  EXPECT_NEAR(c.surface_to_union.value, 1, c.spacing);
+}
+
+TEST(compare, equal_and_nested_balls_change_no_distance) {
+  const TriangleMesh mesh = cube();
+  const Comparison one = compare(balls_of({{0, 0, 0}}, {1.25}), {}, mesh, {.spacing = 2});
+  const Comparison more =
+      compare(balls_of({{0, 0, 0}, {0, 0, 0}, {0.1, 0, 0}}, {1.25, 1.25, 0.5}), {}, mesh, {.spacing = 2});
+  EXPECT_NEAR(more.surface_to_union.value, one.surface_to_union.value, one.spacing / 16);
+  EXPECT_EQ(more.union_to_surface.value, one.union_to_surface.value);
+  EXPECT_EQ(more.coverage, one.coverage);
+  EXPECT_EQ(more.union_volume, one.union_volume);
+}
+
+TEST(compare, accepts_points_flat_and_degenerate_input) {
+  const Comparison point = compare(balls_of({{1, 2, 3}}, {0}), {{Vec3{1, 2, 3}}, {}}, {});
+  EXPECT_EQ(point.hausdorff(), 0);
+  EXPECT_EQ(point.union_volume, 0);
+  EXPECT_EQ(point.coverage, 1);
+  const TriangleMesh sliver{{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0.5, 0, 0}}, {Triangle{0, 1, 2}}};
+  const Comparison flat = compare(balls_of({{0.5, 0, 0}}, {0.75}), {}, sliver, {.spacing = 2});
+  expect_within(flat.surface_to_union, 0.75);
+  EXPECT_EQ(broken_invariant(flat), "");
+}
+
+TEST(compare, does_not_change_when_everything_is_scaled_by_a_power_of_two) {
+  TriangleMesh large = cube();
+  std::vector<Vec3> vertices;
+  for (const Vec3& v : large.vertices) vertices.push_back(1024 * v);
+  large.vertices = vertices;
+  const Comparison a = compare(balls_of({{0.1, 0, 0}}, {1}), {}, cube(), {.spacing = 4});
+  const Comparison b = compare(balls_of({{102.4, 0, 0}}, {1024}), {}, large, {.spacing = 4});
+  EXPECT_NEAR(b.hausdorff(), 1024 * a.hausdorff(), 1e-9 * b.hausdorff());
+  EXPECT_EQ(a.union_samples, b.union_samples);
+  EXPECT_NEAR(a.coverage, b.coverage, 1e-9);
+}
+
+TEST(compare, gives_the_same_bits_for_any_number_of_threads) {
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 4);
+  std::mt19937 random(3);
+  std::vector<Vec3> centers;
+  std::vector<double> radii;
+  for (int i = 0; i < 300; ++i) {
+    centers.push_back({unit(random), unit(random), unit(random)});
+    radii.push_back(0.1 * unit(random));
+  }
+  const auto with_threads = [&](int threads) {
+    return tbb::task_arena(threads).execute(
+        [&] { return compare(balls_of(centers, radii), {}, cube(), {.spacing = 2}); });
+  };
+  const Comparison one = with_threads(1);
+  for (const int threads : {2, 4}) {
+    const Comparison many = with_threads(threads);
+    EXPECT_EQ(many.surface_to_union.mean, one.surface_to_union.mean);
+    EXPECT_EQ(many.union_to_surface.mean, one.union_to_surface.mean);
+    EXPECT_EQ(many.union_volume, one.union_volume);
+    EXPECT_EQ(many.coverage, one.coverage);
+  }
+}
+
+TEST(compare, refuses_what_cannot_be_compared) {
+  const Balls ball = balls_of({{0, 0, 0}}, {1});
+  EXPECT_NE(refusal(balls_of({}, {}), {}, cube()).find("no balls"), std::string::npos);
+  EXPECT_NE(refusal(ball, {}, {}).find("no surface"), std::string::npos);
+  EXPECT_NE(refusal(ball, {}, cube(), {.spacing = 0}).find("spacing is 0"), std::string::npos);
+  EXPECT_NE(refusal(ball, {}, cube(), {.spacing = 1e-3}).find("30 million samples of the surface"),
+            std::string::npos);
+  TriangleMesh broken = cube();
+  broken.triangles = {Triangle{0, 1, 99}};
+  EXPECT_NE(refusal(ball, {}, broken).find("damaged"), std::string::npos);
+}
+
+TEST(compare, stops_when_cancelled) {
+  class Stop final : public Monitor {
+   public:
+    bool cancelled() override { return ++looks > 5; }
+    std::atomic<int> looks{0};
+  } stop;
+  EXPECT_THROW(compare(balls_of({{0, 0, 0}}, {1}), {}, cube(), {.spacing = 0.05}, stop), Cancelled);
+}
+
+}  // namespace
+}  // namespace ballflow::geometry

@@ -1,0 +1,52 @@
+#include <cstdio>
+
+#include "ballflow/history.hpp"
+#include "commands/commands.hpp"
+#include "report/compare.hpp"
+
+namespace ballflow::cli {
+namespace {
+
+struct CompareArguments {
+  std::vector<std::string> runs, fields;
+  std::string format = "text";
+};
+
+int show(const Common& common, const CompareArguments& arguments) {
+  const auto store = common.store();
+  std::vector<RunRecord> runs;
+  if (arguments.runs.empty()) runs.push_back(find_run(*store, "latest"));
+  for (const std::string& name : arguments.runs) runs.push_back(find_run(*store, name));
+  const std::string table = render(compare(runs, arguments.fields), arguments.format);
+  std::fwrite(table.data(), 1, table.size(), stdout);
+  return 0;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, Common& common, Action& action) {
+  CLI::App* command = app.add_subcommand(
+      "compare", "a table of runs, or of the variants of a sweep: parameters, results, seconds");
+  const auto arguments = std::make_shared<CompareArguments>();
+  command
+      ->add_option(
+          "run", arguments->runs,
+          "runs: an id or the beginning of one (see \"ballflow runs\"), latest, previous, a report file,\n"
+          "or a folder with a report.json; default: latest")
+      ->type_name("RUN...");
+  command
+      ->add_option(
+          "--fields", arguments->fields,
+          "what of the results: output.field, subgraph.output.field, node.port.field, node.parameter, or\n"
+          "all; default: what differs in the summaries of the outputs")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("FIELD,FIELD");
+  command->add_option("--format", arguments->format, "text, csv, md or json")
+      ->check(CLI::IsMember({"text", "csv", "md", "json"}));
+  command->add_option("--cache", common.cache, "cache folder")->type_name("DIR");
+  command->callback(
+      [&common, &action, arguments] { action = [&common, arguments] { return show(common, *arguments); }; });
+}
+
+}  // namespace ballflow::cli

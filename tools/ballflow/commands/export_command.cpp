@@ -1,0 +1,52 @@
+#include <cstdio>
+
+#include "ballflow/text.hpp"
+#include "commands/commands.hpp"
+#include "export/export.hpp"
+
+namespace ballflow::cli {
+namespace {
+
+struct ExportArguments {
+  std::string artifact, path, format;
+};
+
+std::string formats_help() {
+  std::string text = "Formats by type, the default first:\n";
+  const auto add = [&text](const std::string& type, const std::vector<std::string>& formats) {
+    text += "  " + type + std::string(type.size() < 20 ? 20 - type.size() : 1, ' ');
+    for (const std::string& format : formats) text += (&format == &formats.front() ? "" : ", ") + format;
+    text += "\n";
+  };
+  for (const std::string& type : exported_types()) add(type, export_formats(type));
+  add("any other type", export_formats(""));
+  return text +
+         "safetensors is the artifact itself, byte for byte; json only describes it.\n"
+         "For ParaView take vtp, for Blender and browsers glb, for NumPy npy, for Q-MAT and its kin ma.";
+}
+
+int export_one(const Common& common, const ExportArguments& arguments) {
+  const ArtifactPtr artifact = find_artifact(common, arguments.artifact);
+  export_artifact(*artifact, arguments.path, arguments.format);
+  std::printf("wrote %s (%s)\n", printable(arguments.path).c_str(), artifact->type().c_str());
+  return 0;
+}
+
+}  // namespace
+
+void add_export(CLI::App& app, Common& common, Action& action) {
+  CLI::App* command =
+      app.add_subcommand("export", "write an artifact in a usual format (ply, vtp, glb, npy, ...)");
+  const auto arguments = std::make_shared<ExportArguments>();
+  command->add_option("artifact", arguments->artifact, "digest from a run report, or a file of the cache")
+      ->required();
+  command->add_option("file", arguments->path, "file to write")->required();
+  command->add_option("--format", arguments->format, "format; default: by the extension of the file");
+  command->add_option("--cache", common.cache, "cache folder")->type_name("DIR");
+  command->footer(formats_help());
+  command->callback([&common, &action, arguments] {
+    action = [&common, arguments] { return export_one(common, *arguments); };
+  });
+}
+
+}  // namespace ballflow::cli

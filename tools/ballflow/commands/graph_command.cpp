@@ -1,0 +1,60 @@
+#include <cstdio>
+
+#include "ballflow/dot.hpp"
+#include "ballflow/history.hpp"
+#include "ballflow/report.hpp"
+#include "ballflow/text.hpp"
+#include "commands/commands.hpp"
+#include "commands/viewer_page.hpp"
+#include "show/page/page.hpp"
+
+namespace ballflow::cli {
+namespace {
+
+struct DrawArguments {
+  GraphArguments graph;
+  std::uint64_t seed = 0;
+  bool status = false;
+  std::string html;
+};
+
+int draw(const Common& common, const DrawArguments& arguments) {
+  const std::string page_template = arguments.html.empty() ? "" : viewer_template();
+  const auto registry = common.registry();
+  const Dag dag = arguments.graph.load(*registry);
+  std::vector<NodePlan> plans;
+  if (arguments.status) {
+    const auto store = common.store();
+    plans = plan(dag, *store, arguments.seed, latest_manifests(*store, arguments.graph.file));
+  }
+  if (arguments.html.empty()) {
+    std::fputs(dot(dag, plans).c_str(), stdout);
+    return 0;
+  }
+  show::Page page(*registry, show::default_page_bytes);
+  page.add_graph(dag, plans);
+  write_atomically(arguments.html, page.html(page_template, BALLFLOW_VERSION));
+  std::printf("wrote %s (%zu nodes)\n", printable(arguments.html).c_str(), dag.nodes.size());
+  return 0;
+}
+
+}  // namespace
+
+void add_graph(CLI::App& app, Common& common, Action& action) {
+  CLI::App* command =
+      app.add_subcommand("graph", "draw the expanded graph, as text for Graphviz (DOT) or as a page");
+  const auto arguments = std::make_shared<DrawArguments>();
+  arguments->graph.add_to(*command);
+  command->add_flag("--status", arguments->status, "show what a run would take from the cache (HIT) or run");
+  command
+      ->add_option("--html", arguments->html,
+                   "write a page instead: nodes that can be clicked, with their parameters")
+      ->type_name("PAGE.html");
+  command->add_option("--cache", common.cache, "cache folder, for --status")->type_name("DIR");
+  command->add_option("--seed", arguments->seed, "seed of the nodes that use random numbers, for --status");
+  command->footer("  ballflow graph graphs/medial_axis.json | dot -Tsvg > medial_axis.svg");
+  command->callback(
+      [&common, &action, arguments] { action = [&common, arguments] { return draw(common, *arguments); }; });
+}
+
+}  // namespace ballflow::cli

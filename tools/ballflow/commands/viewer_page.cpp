@@ -1,0 +1,24 @@
+#include "commands/viewer_page.hpp"
+
+#include <fstream>
+#include <sstream>
+
+#include "ballflow/error.hpp"
+#include "ballflow/registry.hpp"
+
+namespace ballflow::cli {
+
+std::string viewer_template() {
+  // Node libraries are in lib/ballflow, in the build folder as where ballflow is installed.
+  const std::string path = Registry::default_folder() + "/../../share/ballflow/viewer.html";
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (file) text << file.rdbuf();
+  if (!file) {
+    throw Error(ExitCode::store, "this ballflow was built without its viewer",
+                "\"tools/setup viewer\" installs nodejs and npm, with which the next build makes it");
+  }
+  return text.str();
+}
+
+}  // namespace ballflow::cli

@@ -1,0 +1,179 @@
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <map>
+
+#include "terminal/terminal.hpp"
+
+namespace ballflow::cli {
+namespace {
+
+std::string number(const Json& summary, const char* field) {
+  if (!summary.contains(field) || !summary.at(field).is_number()) return "?";
+  return grouped(summary.at(field).get<std::int64_t>());
+}
+
+/// "1 ball", "35 676 balls".
+std::string counted(const Json& summary, const char* field, const std::string& thing) {
+  const std::string count = number(summary, field);
+  return count + " " + thing + (count == "1" ? "" : "s");
+}
+
+std::string percent(double fraction) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f %%", 100 * fraction);
+  return text;
+}
+
+std::string cover(const Json& s) {
+  if (s.contains("remaining") && s.at("remaining") == 0) {
+    std::string text = counted(s, "chosen", "ball") + " chosen";
+    if (s.at("lower_bound") == s.at("chosen")) return text + ", the fewest possible";
+    if (s.at("lower_bound").is_number()) text += ", at least " + number(s, "lower_bound") + " needed";
+    if (s.at("gap").is_number()) text += ", gap " + percent(s.at("gap").get<double>());
+    return text;
+  }
+  std::string text = number(s, "rows") + " x " + number(s, "cols") + ", " + number(s, "nnz") + " entries";
+  if (s.contains("chosen") && s.at("chosen") != 0) text += ", " + counted(s, "chosen", "ball") + " chosen";
+  return text;
+}
+
+std::string mesh(const Json& s) {
+  std::string text = counted(s, "faces", "triangle") + ", ";
+  if (s.value("faces", 0) == 0) return "no triangles";
+  text += s.value("closed", false) ? "closed" : "open";
+  if (!s.value("manifold", true)) text += ", not manifold";
+  if (s.contains("genus") && s.at("genus").is_number()) text += ", genus " + number(s, "genus");
+  return text;
+}
+
+std::string complex(const Json& s) {
+  std::string text =
+      number(s, "tetrahedra") + (s.value("tetrahedra", 0) == 1 ? " tetrahedron, " : " tetrahedra, ") +
+      counted(s, "triangles", "triangle") + ", Euler characteristic " + number(s, "euler_characteristic");
+  if (s.contains("betti") && s.at("betti").is_array() && s.at("betti").size() == 3) {
+    text +=
+        ", Betti " + s.at("betti")[0].dump() + " " + s.at("betti")[1].dump() + " " + s.at("betti")[2].dump();
+  }
+  return text;
+}
+
+std::string comparison(const Json& s) {
+  const auto rounded = [&](const char* field) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", s.at(field).get<double>());
+    return std::string(text);
+  };
+  std::string text = "Hausdorff distance " + rounded("hausdorff") + " (at most " +
+                     rounded("hausdorff_at_most") + "), mean " + rounded("chamfer");
+  if (s.at("volume_error").is_number()) {
+    char percent[32];
+    std::snprintf(percent, sizeof percent, "%+.2f %%", 100 * s.at("volume_error").get<double>());
+    text += ", volume " + std::string(percent);
+  }
+  return text;
+}
+
+std::string growth(const Json& s) {
+  std::string text = number(s, "stopped") + " of " + counted(s, "balls", "ball") + " stopped";
+  if (s.at("betti_after").is_array() && s.at("betti_after") == s.at("betti_before"))
+    text += ", Betti numbers kept";
+  return text;
+}
+
+std::string minkowski(const Json& s) {
+  std::string text = number(s, "pairs") + " pairs, " + number(s, "count") + " contribute, " +
+                     number(s, "touching_boundary") + " on the boundary";
+  if (s.at("error_bound").is_number()) {
+    char bound[32];
+    std::snprintf(bound, sizeof bound, "%.4g", s.at("error_bound").get<double>());
+    text += ", error at most " + std::string(bound);
+  }
+  return text;
+}
+
+std::string axis(const Json& s) {
+  return counted(s, "polygons", "polygon") + " in " + counted(s, "sheets", "sheet") + ", " +
+         counted(s, "edges", "free edge") + ", Euler characteristic " + number(s, "euler_characteristic");
+}
+
+}  // namespace
+
+std::string grouped(std::int64_t value) {
+  std::string digits = std::to_string(value < 0 ? -value : value);
+  for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, " ");
+  return value < 0 ? "-" + digits : digits;
+}
+
+std::string duration(double seconds) {
+  char text[32];
+  if (seconds < 10) {
+    std::snprintf(text, sizeof text, "%.3f s", seconds);
+  } else if (seconds < 120) {
+    std::snprintf(text, sizeof text, "%.1f s", seconds);
+  } else {
+    const auto whole = static_cast<long>(std::lround(seconds));
+    std::snprintf(text, sizeof text, "%ld min %02ld s", whole / 60, whole % 60);
+  }
+  return text;
+}
+
+std::string describe(const OutputEntry& output) {
+  using Words = std::function<std::string(const Json&)>;
+  static const std::map<std::string, Words> words = {
+      {"PointSet", [](const Json& s) { return counted(s, "count", "point"); }},
+      {"TriangleMesh", mesh},
+      {"PoleSet",
+       [](const Json& s) {
+         const bool labelled = s.value("inner", 0) + s.value("outer", 0) != 0;
+         return counted(s, "poles", "pole") +
+                (labelled ? " (" + number(s, "inner") + " inner, " + number(s, "outer") + " outer)" : "");
+       }},
+      {"CoverState", cover},
+      {"CoverCheck",
+       [](const Json& s) {
+         return number(s, "covered") + " of " + number(s, "samples") + " samples covered";
+       }},
+      {"Comparison", comparison},
+      {"Growth", growth},
+      {"Bisection",
+       [](const Json& s) {
+         return "growth " + s.at("value").dump() + " after " + counted(s, "tried", "trial");
+       }},
+      {"LocalFeatureSize",
+       [](const Json& s) {
+         return counted(s, "count", "sample") + ", nearest pole from " + s.at("min_pole_distance").dump() +
+                " to " + s.at("max_pole_distance").dump() + " away";
+       }},
+      {"MinkowskiReport", minkowski},
+      {"SimplicialComplex", complex},
+      {"MedialAxis", axis},
+      {"TopologyTable", [](const Json& s) { return s.at("words").get<std::string>(); }},
+      {"TopologyCheck", [](const Json& s) { return s.at("words").get<std::string>(); }},
+  };
+  const Json summary = Json::parse(output.summary, nullptr, false);
+  if (!summary.is_object()) return output.type;
+  if (output.type == "Balls") {
+    return counted(summary, "count", output.port == "balls" ? "ball" : output.port + " ball");
+  }
+  const auto found = words.find(output.type);
+  if (found != words.end()) {
+    try {
+      return found->second(summary);
+    } catch (const Json::exception&) {  // another plugin's idea of the summary
+    }
+  }
+  std::string text = output.type;  // a type of another plugin: its numbers speak for themselves
+  for (const auto& [field, value] : summary.items()) {
+    if (value.is_number()) text += ", " + field + " " + value.dump();
+  }
+  return text;
+}
+
+std::string describe(const std::vector<OutputEntry>& outputs) {
+  std::string text;
+  for (const OutputEntry& output : outputs) text += (text.empty() ? "" : "; ") + describe(output);
+  return text;
+}
+
+}  // namespace ballflow::cli

@@ -1,0 +1,148 @@
+#!/usr/bin/env python3
+"""Checks that includes run downwards, and draws the floors.
+
+usage: tools/floors.py [--fix]
+Reads cmake/floors.txt, which says what every folder may include, and all #include lines of engine, nodes and tools.
+Fails on an include that runs upwards or sideways, on a folder that no floor has, on a table with a cycle, on a source
+file over 450 lines (tables excepted), and when the picture in ARCHITECTURE.md is not that of the table. --fix draws it.
+"""
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+TABLE = ROOT / "cmake" / "floors.txt"
+PICTURE = ROOT / "ARCHITECTURE.md"
+BEGIN, END = "<!-- floors: begin -->", "<!-- floors: end -->"
+# Where the folders of an area are, and the part of a path that an include begins with.
+AREAS = {"engine": ROOT / "engine" / "src", "nodes": ROOT / "nodes", "tools": ROOT / "tools" / "ballflow"}
+PUBLIC = ROOT / "engine" / "include" / "ballflow"
+MOST_LINES = 450
+
+
+def read_table():
+    """floor -> floors it names; header of the engine -> floor."""
+    sees, headers = {}, {}
+    for line in TABLE.read_text().splitlines():
+        match = re.match(r"([a-z_/]+):([^#]*)(?:#(.*))?$", line)
+        if not match:
+            continue
+        floor, seen, note = match.groups()
+        sees[floor] = seen.split()
+        for name in re.findall(r"\[([^]]*)\]", note or ""):
+            headers.update({header: floor for header in name.split()})
+    return sees, headers
+
+
+def closure(sees):
+    """floor -> every floor below it, itself included. Fails on a cycle and on a name that is no floor."""
+    below = {}
+
+    def visit(floor, path):
+        if floor in path:
+            sys.exit("cmake/floors.txt has a cycle: " + " -> ".join([*path, floor]))
+        if floor not in sees:
+            sys.exit(f"cmake/floors.txt: {path[-1]} names {floor}, which has no line")
+        if floor not in below:
+            below[floor] = {floor}.union(*(visit(seen, [*path, floor]) for seen in sees[floor]))
+        return below[floor]
+
+    for floor in sees:
+        visit(floor, [])
+    return below
+
+
+def sources():
+    for area, folder in AREAS.items():
+        for path in sorted(folder.rglob("*")):
+            if path.suffix in (".cpp", ".hpp", ".h") and "node_modules" not in path.parts:
+                yield area, path
+    for path in sorted(PUBLIC.glob("*")):
+        yield "engine", path
+
+
+def floor_of_path(area, path, sees, headers):
+    if path.parent == PUBLIC:
+        return headers.get(path.name)
+    parts = path.relative_to(AREAS[area]).parts[:-1]
+    for length in range(len(parts), 0, -1):
+        floor = "/".join((area, *parts[:length]))
+        if floor in sees:
+            return floor
+    return None
+
+
+def floor_of_include(area, name, sees, headers):
+    """None for what is not the project's."""
+    parts = name.split("/")
+    if parts[0] == "ballflow":
+        return headers.get(parts[1], "no floor")
+    for where in (area, "nodes"):
+        for length in range(len(parts) - 1, 0, -1):
+            floor = "/".join((where, *parts[:length]))
+            if floor in sees:
+                return floor
+    return None
+
+
+def is_adapter(path):
+    """What connects a family with the engine sees the SDK too."""
+    return path.name.endswith((".node.cpp", ".type.cpp")) or path.name in ("plugin.cpp", "artifact_types.hpp")
+
+
+def findings(sees, headers, below):
+    for area, path in sources():
+        shown = path.relative_to(ROOT)
+        if path == AREAS["tools"] / "main.cpp":
+            continue
+        floor = floor_of_path(area, path, sees, headers)
+        if floor is None:
+            yield f"{shown}: cmake/floors.txt has no line for its folder"
+            continue
+        lines = path.read_text().splitlines()
+        if len(lines) > MOST_LINES:
+            yield f"{shown}: {len(lines)} lines; more than {MOST_LINES} have several subjects, split them"
+        allowed = below[floor] | ({"engine/sdk"} if is_adapter(path) else set())
+        for number, line in enumerate(lines, 1):
+            match = re.match(r'\s*#include ["<]([^">]+)[">]', line)
+            target = match and floor_of_include(area, match[1], sees, headers)
+            if target and target not in allowed:
+                yield f"{shown}:{number}: {floor} does not see {target} ({match[1]})"
+
+
+def picture(sees):
+    lines = ["```mermaid", "flowchart BT"]
+    for area in AREAS:
+        lines.append(f"  subgraph {area}")
+        for floor in sees:
+            if floor.startswith(area + "/"):
+                lines.append(f'    {floor.replace("/", "_")}["{floor.split("/", 1)[1]}"]')
+        lines.append("  end")
+    for floor, seen in sees.items():
+        for other in seen:
+            lines.append(f'  {floor.replace("/", "_")} --> {other.replace("/", "_")}')
+    return "\n".join([*lines, "```"])
+
+
+def main():
+    if sys.argv[1:] not in ([], ["--fix"]):
+        sys.exit(__doc__)
+    sees, headers = read_table()
+    found = list(findings(sees, headers, closure(sees)))
+    text = PICTURE.read_text()
+    head, _, rest = text.partition(BEGIN)
+    old, _, tail = rest.partition(END)
+    drawn = f"\n{picture(sees)}\n"
+    if sys.argv[1:] == ["--fix"]:
+        PICTURE.write_text(head + BEGIN + drawn + END + tail)
+    elif old != drawn:
+        found.append('ARCHITECTURE.md: the picture is not that of cmake/floors.txt; "tools/floors.py --fix" draws it')
+    for finding in found:
+        print(finding)
+    if found:
+        print(f"{len(found)} findings; cmake/floors.txt says who may include whom", file=sys.stderr)
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
