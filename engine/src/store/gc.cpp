@@ -1,5 +1,4 @@
 #include "ballflow/gc.hpp"
-#include "ballflow/json.hpp"
 
 #include <unistd.h>
 
@@ -14,6 +13,7 @@
 #include <unordered_map>
 
 #include "ballflow/error.hpp"
+#include "ballflow/json.hpp"
 #include "store/run_folders.hpp"
 #include "store/store_folders.hpp"
 

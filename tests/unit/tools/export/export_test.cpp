@@ -9,9 +9,9 @@
 #include <sstream>
 
 #include "ballflow/error.hpp"
-#include "show/typed.hpp"
 #include "samples.hpp"
 #include "sealed.hpp"
+#include "show/typed.hpp"
 #include "test_data.hpp"
 #include "types/artifact_types.hpp"
 

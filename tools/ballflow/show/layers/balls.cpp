@@ -1,7 +1,7 @@
 // Balls: all of them, with their radii and their order.
-#include "show/typed.hpp"
 #include "show/layer_table.hpp"
 #include "show/layers/attributes.hpp"
+#include "show/typed.hpp"
 #include "types/artifact_types.hpp"
 
 namespace ballflow::show {

@@ -1,7 +1,7 @@
 // Growth: the grown balls, coloured by what stopped them, or by how much they have grown.
-#include "show/typed.hpp"
 #include "show/layer_table.hpp"
 #include "show/layers/attributes.hpp"
+#include "show/typed.hpp"
 #include "types/artifact_types.hpp"
 
 namespace ballflow::show {

@@ -1,6 +1,6 @@
 // LocalFeatureSize: the samples, coloured by their distance to the nearest pole.
-#include "show/typed.hpp"
 #include "show/layer_table.hpp"
+#include "show/typed.hpp"
 #include "types/artifact_types.hpp"
 
 namespace ballflow::show {

@@ -1,6 +1,6 @@
 // PointSet: its points.
-#include "show/typed.hpp"
 #include "show/layer_table.hpp"
+#include "show/typed.hpp"
 #include "types/artifact_types.hpp"
 
 namespace ballflow::show {

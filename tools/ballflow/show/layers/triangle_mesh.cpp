@@ -1,6 +1,6 @@
 // TriangleMesh: its triangles, translucent at first so that what is inside can be seen.
-#include "show/typed.hpp"
 #include "show/layer_table.hpp"
+#include "show/typed.hpp"
 #include "types/artifact_types.hpp"
 
 namespace ballflow::show {
