@@ -18,6 +18,8 @@
 
 namespace ballflow {
 
+class Executor;
+
 struct RunOptions {
   unsigned threads = 0;            // 0: all cores
   std::uint64_t memory_bytes = 0;  // budget for the estimates of running nodes; 0: 80 % of the memory
@@ -36,6 +38,8 @@ struct RunOptions {
   std::set<std::size_t> until;  // these and what they need; empty: what the outputs of the graph need
   std::set<std::size_t> only;   // these alone: what they need has to be in the cache. Excludes `until`
   std::set<std::size_t> force;  // computed although they are in the cache; what follows them may be a hit
+
+  std::shared_ptr<Executor> executor;  // runs the nodes (executor.hpp); null: in this process
 };
 
 /// The greater number of threads of check_determinism.

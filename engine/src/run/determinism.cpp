@@ -139,14 +139,14 @@ std::string Runner::Impl::compare_executions(std::size_t i) {
   const NodeResult& result = result_.nodes[i];
   const auto execute_with = [&](unsigned threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    NodeRunOutcome outcome = execute(i, threads);
-    if (outcome.status == NodeRunOutcome::Status::cancelled) throw Stopped();
-    if (outcome.status != NodeRunOutcome::Status::ok)
+    ExecutionOutcome outcome = execute(i, threads);
+    if (outcome.status == ExecutionOutcome::Status::cancelled) throw Stopped();
+    if (outcome.status != ExecutionOutcome::Status::ok)
       throw Error(ExitCode::node_failed, outcome.cause, outcome.hint);
     return outcome;
   };
   const unsigned many = several_threads(options_);
-  const NodeRunOutcome one = execute_with(1), several = execute_with(many);
+  const ExecutionOutcome one = execute_with(1), several = execute_with(many);
   const std::string with_many = std::to_string(many) + " threads";
   if (const std::string difference = first_difference(one.outputs, several.outputs); !difference.empty()) {
     return "not deterministic: with 1 thread and with " + with_many + " " + difference;

@@ -24,49 +24,28 @@ constexpr std::uint64_t worth_waiting_for = 64u << 20;
 /// Nodes slower than this are flushed to the disk before they are published.
 constexpr double sync_seconds = 1.0;
 
-bool same_digests(const std::vector<OutputEntry>& entries, const NodeRunOutcome& outcome) {
-  return std::all_of(entries.begin(), entries.end(), [&](const OutputEntry& entry) {
-    const auto made = outcome.outputs.find(entry.port);
-    return made != outcome.outputs.end() && made->second->digest() == entry.digest;
-  });
-}
-
 }  // namespace
-
-ArtifactPtr Runner::Impl::artifact(const EdgeRef& output) {
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, options_.threads);
-  try {
-    return ensure(output, output.node);
-  } catch (const PlanIsVoid&) {
-    throw Error(ExitCode::node_failed,
-                dag_.nodes[output.node].path + " gave another result when it was run again",
-                "the node is not deterministic; run the command again to compute what depends on it anew");
-  } catch (const Stopped&) {
-    throw Error(ExitCode::cancelled,
-                "cancelled while " + dag_.nodes[output.node].path + " was run again for its output");
-  }
-}
 
 /// The key was made from the content of files before the node read them. What was computed from a file that
 /// changed in between must not be found under the key of the former content.
 void Runner::Impl::check_files(std::size_t i) {
   const DagNode& node = dag_.nodes[i];
   const std::optional<std::string> file = file_read_by(node);
-  if (!file || key_of(node).key == states_[i]->key) return;
+  if (!file || make_key(node).key == states_[i]->key) return;
   throw Error(ExitCode::node_failed, *file + " changed while the run was reading it",
               "wait until its writer is done, then run again");
 }
 
 /// Runs the node with inputs from memory or from the store; leaves everything but the status in the result.
-NodeStatus Runner::Impl::compute(std::size_t i) {
+NodeStatus Runner::Impl::execute_and_publish(std::size_t i) {
   State& state = *states_[i];
   NodeResult& result = result_.nodes[i];
-  const NodeRunOutcome outcome = execute(i, options_.threads);
+  const ExecutionOutcome outcome = execute(i, options_.threads);
   result.seconds = result.cost_seconds = outcome.seconds;
   result.cpu_seconds = outcome.cpu_seconds;
   result.warnings = outcome.warnings;
   result.iterations = outcome.iterations;
-  if (outcome.status != NodeRunOutcome::Status::ok) {
+  if (outcome.status != ExecutionOutcome::Status::ok) {
     result.cause = outcome.cause;
     result.hint = outcome.hint;
     if (outcome.failed_call) {
@@ -74,12 +53,12 @@ NodeStatus Runner::Impl::compute(std::size_t i) {
       for (const auto& [port, artifact] : outcome.failed_call->inputs)
         result.failed_call->inputs[port] = output_entry(port, *artifact);
     }
-    return outcome.status == NodeRunOutcome::Status::failed ? NodeStatus::failed : NodeStatus::cancelled;
+    return outcome.status == ExecutionOutcome::Status::failed ? NodeStatus::failed : NodeStatus::cancelled;
   }
   check_files(i);
   // A forced node has an entry as a rule.
   if (options_.force.count(i) != 0) {
-    if (const auto entry = entry_of(i); entry && !same_digests(entry->outputs, outcome)) disagree(i);
+    if (const auto entry = known_entry(i); entry && !same_digests(entry->outputs, outcome)) disagree(i);
   }
   result.outputs = publish(i, outcome);
   const std::lock_guard lock(state.mutex);
@@ -87,9 +66,9 @@ NodeStatus Runner::Impl::compute(std::size_t i) {
   return NodeStatus::run;
 }
 
-NodeRunOutcome Runner::Impl::execute(std::size_t i, unsigned threads) {
+ExecutionOutcome Runner::Impl::execute(std::size_t i, unsigned threads) {
   const DagNode& node = dag_.nodes[i];
-  NodeRunRequest request;
+  ExecutionRequest request;
   request.node = &node;
   request.registry = &registry_;
   request.threads = threads;
@@ -98,8 +77,8 @@ NodeRunOutcome Runner::Impl::execute(std::size_t i, unsigned threads) {
   request.cancelled = [this] { return stopping(); };
   request.progress = [this, i](double fraction) { progress(i, fraction); };
   request.message = [this, i](bool warning, const std::string& text) { message(i, warning, text); };
-  NodeRunOutcome outcome = node.loop ? run_loop(request) : run_node(request);
-  if (outcome.status == NodeRunOutcome::Status::failed) {
+  ExecutionOutcome outcome = executor_->execute(request);
+  if (outcome.status == ExecutionOutcome::Status::failed) {
     if (!outcome.failed_call) outcome.failed_call = InnerCall{&node, request.inputs};
     // Whatever they cost to make again: the call can then be repeated alone.
     for (const auto& [port, artifact] : outcome.failed_call->inputs) store_->put_blob(*artifact, false);
@@ -128,7 +107,7 @@ void Runner::Impl::progress(std::size_t i, double fraction) {
 }
 
 /// Stores the artifacts of a finished node and then its entry.
-std::vector<OutputEntry> Runner::Impl::publish(std::size_t i, const NodeRunOutcome& outcome) {
+std::vector<OutputEntry> Runner::Impl::publish(std::size_t i, const ExecutionOutcome& outcome) {
   ActionEntry entry;
   entry.manifest = result_.nodes[i].manifest;
   entry.warnings = outcome.warnings;
@@ -150,100 +129,6 @@ std::vector<OutputEntry> Runner::Impl::publish(std::size_t i, const NodeRunOutco
   }
   store_->put_action(*states_[i]->key, entry, outcome.seconds > sync_seconds);
   return std::move(entry.outputs);
-}
-
-ArtifactPtr Runner::Impl::load(const EdgeRef& edge, const OutputEntry& entry, std::size_t reader) {
-  const auto start = Clock::now();
-  ArtifactPtr artifact = store_->load(entry);
-  if (artifact == nullptr) return nullptr;
-  Event event{Event::Kind::cache_read, reader};
-  event.text = dag_.nodes[edge.node].path + "." + edge.port;
-  event.bytes = entry.bytes;
-  event.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  emit(std::move(event));
-  return artifact;
-}
-
-/// Equal inputs and parameters gave another result than before.
-void Runner::Impl::disagree(std::size_t i) {
-  {
-    const std::lock_guard lock(mutex_);
-    nondeterministic_.insert(i);
-  }
-  const std::string what = "not deterministic: equal inputs and parameters gave another result";
-  if (options_.strict) {
-    throw Error(
-        ExitCode::node_failed, dag_.nodes[i].path + " is " + what + " than the one in the cache",
-        "see what differs with --check-determinism; without --strict the new result replaces the old one");
-  }
-  message(i, true, what + "; what depends on it is computed anew");
-}
-
-/// The artifact of a resolved node: held in memory, read from the store, or made again for `reader`.
-ArtifactPtr Runner::Impl::ensure(const EdgeRef& edge, std::size_t reader) {
-  if (const auto& given = dag_.nodes[edge.node].given) return given->artifact;
-  State& state = *states_[edge.node];
-  const std::lock_guard lock(state.mutex);
-  if (const auto held = state.held.find(edge.port); held != state.held.end()) return held->second;
-  NodeResult& result = result_.nodes[edge.node];
-  const std::string& path = dag_.nodes[edge.node].path;
-  const OutputEntry* entry = find_output(result.outputs, edge.port);
-  if (entry == nullptr) {
-    throw Error(ExitCode::node_failed, path + " has no output \"" + edge.port + "\"");
-  }
-  if (ArtifactPtr artifact = load(edge, *entry, reader)) return state.held[edge.port] = artifact;
-  if (!may_run(edge.node)) {
-    throw Error(ExitCode::node_failed, "needs " + path + "." + edge.port + ", which is not in the cache",
-                "run it with what it needs: --until " + dag_.nodes[reader].path);
-  }
-
-  emit({Event::Kind::node_started, edge.node});
-  const NodeRunOutcome outcome = execute(edge.node, options_.threads);
-  if (outcome.status == NodeRunOutcome::Status::cancelled) throw Stopped();
-  if (outcome.status != NodeRunOutcome::Status::ok) {
-    throw Error(ExitCode::node_failed, path + " had to be run again and failed: " + outcome.cause,
-                outcome.hint);
-  }
-  check_files(edge.node);
-  const bool equal = same_digests(result.outputs, outcome);
-  if (!equal) disagree(edge.node);
-  const std::vector<OutputEntry> outputs = publish(edge.node, outcome);
-  if (!equal) {
-    // Kept here too: the store may be read-only.
-    const std::lock_guard run_lock(mutex_);
-    replaced_[*state.key] = {result.manifest, outputs, outcome.warnings, outcome.seconds,
-                             outcome.cpu_seconds};
-    throw PlanIsVoid();
-  }
-  {
-    const std::lock_guard run_lock(mutex_);
-    result.status = NodeStatus::run;
-    result.reason = "its artifact was needed and not stored";
-    result.seconds += outcome.seconds;
-    result.cpu_seconds += outcome.cpu_seconds;
-    result.iterations = outcome.iterations;
-  }
-  state.held = outcome.outputs;
-  Event event{Event::Kind::node_finished, edge.node};
-  event.result = &result;
-  emit(std::move(event));
-  return state.held.at(edge.port);
-}
-
-/// Drops artifacts whose last consumer is done, unless they are outputs of the graph that only memory has.
-void Runner::Impl::forget(std::size_t i) {
-  if (options_.check_determinism) return;  // every node runs again afterwards
-  State& state = *states_[i];
-  const std::lock_guard lock(state.mutex);
-  for (auto held = state.held.begin(); held != state.held.end();) {
-    const bool wanted = wanted_.count({i, held->first}) != 0;
-    const OutputEntry* entry = find_output(result_.nodes[i].outputs, held->first);
-    if (wanted && (entry == nullptr || !store_->has_blob(*entry))) {
-      ++held;
-    } else {
-      held = state.held.erase(held);
-    }
-  }
 }
 
 }  // namespace ballflow

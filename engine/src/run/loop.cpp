@@ -8,6 +8,7 @@
 
 #include "base/quote.hpp"
 #include "document/until.hpp"
+#include "run/node_run.hpp"
 
 namespace ballflow {
 namespace {
@@ -17,13 +18,13 @@ struct Ended {};
 
 class LoopRun {
  public:
-  explicit LoopRun(const NodeRunRequest& request)
+  explicit LoopRun(const ExecutionRequest& request)
       : request_(request), loop_(*request.node->loop), states_(request.inputs) {}
 
-  NodeRunOutcome run() {
+  ExecutionOutcome run() {
     try {
       while (!until_holds(loop_, states_)) {
-        if (request_.cancelled()) end(NodeRunOutcome::Status::cancelled);
+        if (request_.cancelled()) end(ExecutionOutcome::Status::cancelled);
         if (iteration_ == loop_.max_iterations) {
           reach_limit();
           break;
@@ -32,12 +33,12 @@ class LoopRun {
         iterate();
         request_.progress(progress());
       }
-      outcome_.status = NodeRunOutcome::Status::ok;
+      outcome_.status = ExecutionOutcome::Status::ok;
       for (const DagOutput& output : loop_.body.outputs)
         outcome_.outputs[output.name] = states_.at(output.name);
     } catch (const Ended&) {
     } catch (const Error& error) {
-      outcome_.status = NodeRunOutcome::Status::failed;
+      outcome_.status = ExecutionOutcome::Status::failed;
       outcome_.cause = "after iteration " + std::to_string(iteration_) + ": " + error.what();
       outcome_.hint = error.hint();
     }
@@ -46,7 +47,7 @@ class LoopRun {
   }
 
  private:
-  [[noreturn]] void end(NodeRunOutcome::Status status) {
+  [[noreturn]] void end(ExecutionOutcome::Status status) {
     outcome_.status = status;
     throw Ended();
   }
@@ -57,7 +58,7 @@ class LoopRun {
     if (loop_.stop_at_limit) return pass_on(true, "stopped at the limit: " + what);
     outcome_.cause = what;
     outcome_.hint = "raise \"max_iterations\", or keep what was reached with \"at_limit\": \"stop\"";
-    end(NodeRunOutcome::Status::failed);
+    end(ExecutionOutcome::Status::failed);
   }
 
   void iterate() {
@@ -68,7 +69,7 @@ class LoopRun {
       return found == states_.end() ? nullptr : found->second;  // an optional input that is not connected
     };
     for (std::size_t i = 0; i < loop_.body.nodes.size(); ++i) {
-      NodeRunRequest request = request_;
+      ExecutionRequest request = request_;
       request.node = &loop_.body.nodes[i];
       request.inputs.clear();
       for (const auto& [port, edge] : request.node->inputs) {
@@ -78,9 +79,9 @@ class LoopRun {
       request.message = [&](bool warning, const std::string& text) {
         pass_on(warning, request.node->path + ": " + text);
       };
-      NodeRunOutcome step = request.node->loop ? LoopRun(request).run() : call_node(request);
-      if (step.status != NodeRunOutcome::Status::ok) {
-        if (step.status == NodeRunOutcome::Status::failed) {
+      ExecutionOutcome step = request.node->loop ? execute_loop(request) : execute_node(request);
+      if (step.status != ExecutionOutcome::Status::ok) {
+        if (step.status == ExecutionOutcome::Status::failed) {
           outcome_.cause = request.node->path + " (" + request.node->decl->id + ") failed in iteration " +
                            std::to_string(iteration_) + ": " + step.cause;
           outcome_.hint = step.hint;
@@ -117,21 +118,19 @@ class LoopRun {
     request_.message(warning, line);
   }
 
-  const NodeRunRequest& request_;
+  const ExecutionRequest& request_;
   const Loop& loop_;
   std::map<std::string, ArtifactPtr> states_;  // and the inputs that stay
   std::int64_t iteration_ = 0;
   double farthest_ = 0;
-  NodeRunOutcome outcome_;
+  ExecutionOutcome outcome_;
   std::mutex messages_mutex_;
   std::set<std::string> warnings_, messages_;  // passed on so far
 };
 
 }  // namespace
 
-NodeRunOutcome run_loop(const NodeRunRequest& request) {
-  return run_alone(request, [&] { return LoopRun(request).run(); });
-}
+ExecutionOutcome execute_loop(const ExecutionRequest& request) { return LoopRun(request).run(); }
 
 std::optional<std::string> file_read_by(const DagNode& node) {
   for (const ParamDecl& param : node.decl->params) {

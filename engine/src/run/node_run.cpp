@@ -1,12 +1,6 @@
 #include "run/node_run.hpp"
 
-#include <oneapi/tbb/task_arena.h>
-#include <oneapi/tbb/task_scheduler_observer.h>
-#include <pthread.h>
-
-#include <algorithm>
-#include <chrono>
-#include <ctime>
+#include <atomic>
 #include <exception>
 #include <memory>
 #include <mutex>
@@ -17,100 +11,6 @@
 
 namespace ballflow {
 namespace {
-
-double seconds_on(clockid_t clock) {
-  timespec t{};
-  if (clock_gettime(clock, &t) != 0) return 0;
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-/// CPU time of all threads while they work in one arena.
-class CpuMeter : public tbb::task_scheduler_observer {
- public:
-  explicit CpuMeter(tbb::task_arena& arena) : tbb::task_scheduler_observer(arena) { observe(true); }
-  ~CpuMeter() override { observe(false); }
-
-  void on_scheduler_entry(bool) override {
-    const std::lock_guard lock(mutex_);
-    inside_.emplace_back(pthread_self(), now(pthread_self()));
-  }
-  void on_scheduler_exit(bool) override {
-    const std::lock_guard lock(mutex_);
-    for (std::size_t i = inside_.size(); i-- > 0;) {
-      if (pthread_equal(inside_[i].first, pthread_self()) == 0) continue;
-      total_ += now(pthread_self()) - inside_[i].second;
-      inside_.erase(inside_.begin() + static_cast<std::ptrdiff_t>(i));
-      return;
-    }
-  }
-  double total() {
-    const std::lock_guard lock(mutex_);
-    double sum = total_;
-    for (const auto& [thread, start] : inside_) sum += now(thread) - start;
-    return sum;
-  }
-
- private:
-  static double now(pthread_t thread) {
-    clockid_t clock{};
-    return pthread_getcpuclockid(thread, &clock) == 0 ? seconds_on(clock) : 0;
-  }
-  std::mutex mutex_;
-  std::vector<std::pair<pthread_t, double>> inside_;
-  double total_ = 0;
-};
-
-/// Arenas and their meters, each used by one node at a time. They are kept for the next node: making one
-/// costs more than running a small node.
-class Arenas {
- public:
-  struct Arena {
-    explicit Arena(unsigned count) : threads(count), arena(static_cast<int>(count)), meter(arena) {}
-    unsigned threads;
-    tbb::task_arena arena;
-    CpuMeter meter;
-  };
-
-  std::unique_ptr<Arena> take(unsigned threads) {
-    {
-      const std::lock_guard lock(mutex_);
-      for (std::unique_ptr<Arena>& free : free_) {
-        if (free->threads != threads) continue;
-        std::swap(free, free_.back());
-        std::unique_ptr<Arena> arena = std::move(free_.back());
-        free_.pop_back();
-        return arena;
-      }
-    }
-    return std::make_unique<Arena>(threads);
-  }
-  void give_back(std::unique_ptr<Arena> arena) {
-    const std::lock_guard lock(mutex_);
-    free_.push_back(std::move(arena));
-  }
-  /// Never destroyed: TBB's own threads may end later than static objects.
-  static Arenas& instance() {
-    static Arenas* const arenas = new Arenas;
-    return *arenas;
-  }
-
- private:
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<Arena>> free_;
-};
-
-/// CPU seconds of this thread, to 50 us. Its clock is a system call, and a small node takes no longer than
-/// two of them: up to 50 us after a reading the thread is taken to have worked all the time.
-double thread_cpu_seconds() {
-  constexpr double between_readings = 50e-6;
-  thread_local std::chrono::steady_clock::time_point read_at;
-  thread_local double reading = 0;
-  const auto now = std::chrono::steady_clock::now();
-  const double since = std::chrono::duration<double>(now - read_at).count();
-  if (since < between_readings) return reading + since;
-  read_at = now;
-  return reading = seconds_on(CLOCK_THREAD_CPUTIME_ID);
-}
 
 /// An artifact as the boundary shows it; lives until the last reader lets go.
 struct InputView {
@@ -151,7 +51,7 @@ struct HandedOver {
 
 class Host {
  public:
-  explicit Host(const NodeRunRequest& request) : request_(request) {
+  explicit Host(const ExecutionRequest& request) : request_(request) {
     for (const auto& [port, artifact] : request.inputs) views_[port] = new InputView(artifact);
     for (const auto& [name, value] : request.node->params) {
       params_ += params_.empty() ? '{' : ',';
@@ -186,7 +86,7 @@ class Host {
     return run;
   }
 
-  NodeRunOutcome outcome;
+  ExecutionOutcome outcome;
 
   void fail(std::string cause, std::string hint) {
     const std::lock_guard lock(mutex_);
@@ -252,7 +152,7 @@ class Host {
     return 1;
   }
 
-  const NodeRunRequest& request_;
+  const ExecutionRequest& request_;
   std::map<std::string, InputView*> views_;
   std::string params_;
   std::mutex mutex_;
@@ -260,61 +160,31 @@ class Host {
 
 }  // namespace
 
-NodeRunOutcome run_alone(const NodeRunRequest& request, const std::function<NodeRunOutcome()>& work) {
-  const auto start = std::chrono::steady_clock::now();
-  NodeRunOutcome outcome;
-  const auto work_and_hash = [&] {
-    outcome = work();
-    for (const auto& [port, artifact] : outcome.outputs) {
-      if (!artifact->hash(request.cancelled)) outcome.status = NodeRunOutcome::Status::cancelled;
-    }
-    if (outcome.status != NodeRunOutcome::Status::ok) outcome.outputs.clear();
-  };
-  if (request.threads == 1 && tbb::this_task_arena::max_concurrency() == 1) {
-    // This thread is alone in its arena already: entering another one would cost more than a small node.
-    const double cpu = thread_cpu_seconds();
-    tbb::this_task_arena::isolate(work_and_hash);
-    outcome.cpu_seconds = std::max(0.0, thread_cpu_seconds() - cpu);
-  } else {
-    std::unique_ptr<Arenas::Arena> place = Arenas::instance().take(request.threads);
-    const double cpu = place->meter.total();
-    place->arena.execute(work_and_hash);
-    outcome.cpu_seconds = place->meter.total() - cpu;
-    Arenas::instance().give_back(std::move(place));
-  }
-  outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return outcome;
-}
-
-NodeRunOutcome run_node(const NodeRunRequest& request) {
-  return run_alone(request, [&] { return call_node(request); });
-}
-
-NodeRunOutcome call_node(const NodeRunRequest& request) {
+ExecutionOutcome execute_node(const ExecutionRequest& request) {
   Host host(request);
   const bf_run table = host.table();
   const int status = request.node->decl->entry->run(&table);
-  NodeRunOutcome outcome = std::move(host.outcome);
+  ExecutionOutcome outcome = std::move(host.outcome);
 
   // An output that the engine refused reaches the node as a cancellation; the recorded cause decides.
   if (!outcome.cause.empty()) {
-    outcome.status = NodeRunOutcome::Status::failed;
+    outcome.status = ExecutionOutcome::Status::failed;
   } else if (status == BF_OK) {
-    outcome.status = NodeRunOutcome::Status::ok;
+    outcome.status = ExecutionOutcome::Status::ok;
     for (const PortDecl& port : request.node->decl->outputs) {
       if (outcome.outputs.count(port.name) != 0) continue;
-      outcome.status = NodeRunOutcome::Status::failed;
+      outcome.status = ExecutionOutcome::Status::failed;
       outcome.cause = "the node did not give its output \"" + port.name + "\"";
       outcome.hint = "this is a bug of the node; please report it";
     }
   } else if (status == BF_CANCELLED && request.cancelled()) {
-    outcome.status = NodeRunOutcome::Status::cancelled;
+    outcome.status = ExecutionOutcome::Status::cancelled;
   } else {
-    outcome.status = NodeRunOutcome::Status::failed;
+    outcome.status = ExecutionOutcome::Status::failed;
     outcome.cause = "the node failed without giving a cause";
     outcome.hint = "this is a bug of the node; please report it";
   }
-  if (outcome.status != NodeRunOutcome::Status::ok) outcome.outputs.clear();
+  if (outcome.status != ExecutionOutcome::Status::ok) outcome.outputs.clear();
   return outcome;
 }
 

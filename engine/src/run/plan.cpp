@@ -1,25 +1,9 @@
 #include <algorithm>
-#include <charconv>
 
-#include "ballflow/gc.hpp"
 #include "ballflow/run.hpp"
-#include "base/process_usage.hpp"
 #include "run/forecast.hpp"
 
 namespace ballflow {
-
-std::optional<std::uint64_t> parse_memory(std::string_view text) {
-  if (!text.empty() && text.back() == '%') {
-    unsigned percent = 0;
-    const auto parsed = std::from_chars(text.data(), text.data() + text.size() - 1, percent);
-    if (parsed.ec != std::errc() || parsed.ptr != text.data() + text.size() - 1) return std::nullopt;
-    if (percent == 0 || percent > 100) return std::nullopt;
-    return physical_memory_bytes() / 100 * percent;
-  }
-  const auto bytes = parse_size(text);
-  if (!bytes || *bytes == 0 || *bytes == no_limit) return std::nullopt;
-  return bytes;
-}
 
 std::string_view to_string(NodePlan::Verdict verdict) {
   switch (verdict) {
@@ -33,27 +17,6 @@ std::string_view to_string(NodePlan::Verdict verdict) {
       return "-";
   }
   return "";
-}
-
-OutputEntry output_entry(const std::string& port, const Artifact& artifact) {
-  return {port,
-          artifact.type(),
-          artifact.version(),
-          artifact.digest(),
-          artifact.file_size(),
-          artifact.checksum(),
-          artifact.summary()};
-}
-
-std::optional<ActionEntry> find_entry(Store& store, const NodeDeclaration& decl, const Digest& key) {
-  std::optional<ActionEntry> entry = store.find_action(key);
-  const auto gives = [&entry](const PortDecl& port) {
-    return std::any_of(entry->outputs.begin(), entry->outputs.end(), [&port](const OutputEntry& output) {
-      return output.port == port.name && output.type == port.type && output.type_version == port.type_version;
-    });
-  };
-  if (entry && !std::all_of(decl.outputs.begin(), decl.outputs.end(), gives)) entry.reset();
-  return entry;
 }
 
 namespace {

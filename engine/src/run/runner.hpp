@@ -1,5 +1,6 @@
-// The inside of Runner. scheduler.cpp decides what happens when; execution.cpp makes, keeps and stores
-// artifacts; determinism.cpp runs nodes again to compare.
+// The inside of Runner. runner.cpp has rounds and their ends, scheduler.cpp what happens to a node and when,
+// execution.cpp hands nodes to the executor and stores what they give, artifacts.cpp keeps, loads and makes
+// again, determinism.cpp runs nodes again to compare.
 #pragma once
 
 #include <oneapi/tbb/task_group.h>
@@ -9,9 +10,9 @@
 #include <mutex>
 #include <unordered_map>
 
+#include "ballflow/executor.hpp"
 #include "ballflow/gc.hpp"
 #include "ballflow/run.hpp"
-#include "run/node_run.hpp"
 
 namespace ballflow {
 
@@ -22,7 +23,9 @@ struct PlanIsVoid {};
 /// Thrown when an artifact that had to be computed again was not, because nobody wants results any more.
 struct Stopped {};
 
+// entries.cpp
 const OutputEntry* find_output(const std::vector<OutputEntry>& outputs, const std::string& port);
+bool same_digests(const std::vector<OutputEntry>& entries, const ExecutionOutcome& outcome);
 
 /// The first difference between two sets of outputs by port, in words; empty when there is none.
 std::string first_difference(const std::map<std::string, ArtifactPtr>& a,
@@ -53,7 +56,7 @@ class Runner::Impl {
     std::vector<std::size_t> followers;
   };
 
-  // scheduler.cpp
+  // runner.cpp
   bool cancelled() const;
   bool stopping() const;
   bool may_run(std::size_t i) const { return options_.only.empty() || options_.only.count(i) != 0; }
@@ -61,16 +64,17 @@ class Runner::Impl {
   void message(std::size_t i, bool warning, const std::string& text);
   bool run_once();
   void name_what_did_not_run();
+
+  // scheduler.cpp
   void dispatch(std::size_t i);
   void process(std::size_t i);
   void resolve(std::size_t i);
   bool take_force(std::size_t i);
-  std::optional<ActionEntry> entry_of(std::size_t i);
-  ActionKey key_of(const DagNode& node);
+  std::optional<ActionEntry> known_entry(std::size_t i);
+  ActionKey make_key(const DagNode& node);
   bool admit(std::size_t i);
   void dismiss(std::size_t i);
   std::uint64_t memory_estimate(std::size_t i);
-  bool is_at_hand(const EdgeRef& edge, const OutputEntry& entry);
   void adopt(std::size_t i, const ActionEntry& entry, const std::string& reason);
   std::string why(std::size_t i) const;
   void settle(std::size_t i, NodeStatus status, const std::string& reason);
@@ -79,10 +83,13 @@ class Runner::Impl {
 
   // execution.cpp
   void check_files(std::size_t i);
-  NodeStatus compute(std::size_t i);
-  NodeRunOutcome execute(std::size_t i, unsigned threads);
+  NodeStatus execute_and_publish(std::size_t i);
+  ExecutionOutcome execute(std::size_t i, unsigned threads);
   void progress(std::size_t i, double fraction);
-  std::vector<OutputEntry> publish(std::size_t i, const NodeRunOutcome& outcome);
+  std::vector<OutputEntry> publish(std::size_t i, const ExecutionOutcome& outcome);
+
+  // artifacts.cpp
+  bool is_at_hand(const EdgeRef& edge, const OutputEntry& entry);
   ArtifactPtr ensure(const EdgeRef& edge, std::size_t reader);
   ArtifactPtr load(const EdgeRef& edge, const OutputEntry& entry, std::size_t reader);
   void disagree(std::size_t i);
@@ -97,6 +104,7 @@ class Runner::Impl {
   std::shared_ptr<Store> store_;
   std::unique_ptr<Lease> lease_;  // what this run uses is not collected while it lives
   RunOptions options_;
+  std::shared_ptr<Executor> executor_;
   EventSink& events_;
   Manifests earlier_;
   RunResult result_;
