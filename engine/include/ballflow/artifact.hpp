@@ -71,8 +71,10 @@ class Artifact {
   /// Maps a file read-only and decodes it. The artifact stays valid when the file is deleted or replaced;
   /// like every mapping it does not survive that the file is cut short.
   static std::shared_ptr<const Artifact> map(const std::string& path);
-  /// The same for an open file, which may be closed afterwards. `name` is for messages.
-  static std::shared_ptr<const Artifact> map(int file, const std::string& name);
+  /// The same for an open file, which may be closed afterwards. `name` is for messages. `known`: the digest
+  /// of the file, when somebody vouches for it; then digest() gives it without reading the file again.
+  static std::shared_ptr<const Artifact> map(int file, const std::string& name,
+                                             const std::optional<Digest>& known = std::nullopt);
 
   const std::string& type() const { return type_; }
   int version() const { return version_; }
@@ -89,9 +91,8 @@ class Artifact {
   std::vector<std::span<const std::byte>> pieces() const;
 
  private:
-  friend class Store;  // knows the digest of what it loads
   Artifact() = default;
-  void settle(const Digest& known) const;
+  static std::shared_ptr<Artifact> read(std::span<const std::byte> file, std::shared_ptr<const void> owner);
 
   std::string type_;
   int version_ = 0;

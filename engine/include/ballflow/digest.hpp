@@ -1,5 +1,5 @@
 // SHA-256 digests: the names of artifacts and of actions. XXH3-128 checksums: the fast check of what was
-// read.
+// read. All hashing of the engine is here.
 #pragma once
 
 #include <array>
@@ -68,6 +68,17 @@ class Checksummer {
 };
 
 Checksum checksum_of(const void* data, std::size_t size);
+
+/// The sums of pieces one after the other, in one pass; a null pointer is a sum that nobody wants. `give_up`
+/// is polled every few milliseconds; false when it said so.
+bool sum_up(std::span<const std::span<const std::byte>> pieces, Digest* digest, Checksum* checksum,
+            const std::function<bool()>& give_up = {});
+
+class FileSystem;
+
+/// SHA-256 of an open file from where it stands to its end. Stops when there are more than `at_most` bytes (a
+/// file may grow faster than it is read). The number of bytes that were read, or a negative errno value.
+std::int64_t sha256_of_file(FileSystem& files, int file, std::uint64_t at_most, Digest& digest);
 
 }  // namespace ballflow
 

@@ -61,6 +61,31 @@ struct ActionEntry {
   double seconds = 0, cpu_seconds = 0;
 };
 
+/// What became of an entry that was put.
+struct ActionPut {
+  bool stored = false;  // it is there now: written, or there already and saying the same
+  /// The entry that it replaced because it named other outputs for the same key: a node whose result depends
+  /// on more than its key, or a machine that computes wrongly.
+  std::optional<ActionEntry> disagreed;
+
+  explicit operator bool() const { return stored; }
+};
+
+/// Held by who computes a key (Store::lock). Freed at the end of the object, and by the kernel when the
+/// process dies.
+class KeyLock {
+ public:
+  KeyLock() = default;
+  virtual ~KeyLock() = default;
+  KeyLock(const KeyLock&) = delete;
+  KeyLock& operator=(const KeyLock&) = delete;
+};
+
+struct LockAttempt {
+  std::unique_ptr<KeyLock> lock;  // null: not now, or never
+  bool busy = false;              // another process or thread has it: try again later
+};
+
 /// Key manifests of an earlier run by node path: what reasons are compared with.
 using Manifests = std::map<std::string, std::string>;
 
@@ -69,15 +94,13 @@ struct StoreOptions {
   bool read_only = false;
 };
 
-struct StoreFolders;
-
 /// The side effects of the store (file_system.hpp), so that tests can fake a full disk or an odd file system.
 class FileSystem;
 
-class Store {
-  struct Impl;
-  friend struct StoreFolders;
+/// The rooms of the store (store/parts.hpp), of which Store is the face: blobs, actions, locks, ...
+class StoreParts;
 
+class Store {
  public:
   /// Opens or creates. Throws Error (code store) when the folder cannot be trusted (see above). A folder that
   /// cannot be created or written is used read-only; why() says so. Removes what dead processes of this
@@ -95,9 +118,9 @@ class Store {
   std::optional<ActionEntry> peek_action(const Digest& key);
   /// To be called last, after its blobs. An entry that is there and says the same (times aside) is kept; one
   /// that is damaged or names other outputs is replaced at once and as a whole: the newest computation
-  /// counts, and readers see the old entry or the new one. False when it could not be written (full disk,
-  /// read-only).
-  bool put_action(const Digest& key, const ActionEntry& entry, bool sync = false);
+  /// counts, and readers see the old entry or the new one. Not stored when it could not be written (full
+  /// disk, read-only).
+  ActionPut put_action(const Digest& key, const ActionEntry& entry, bool sync = false);
 
   /// Whether a file of the right name and size is there; load() may still find it damaged.
   bool has_blob(const OutputEntry& output);
@@ -116,22 +139,12 @@ class Store {
   bool memo_intact(const Digest& name);
 
   /// Serialises computations of one key between processes: blocks until this process holds the lock of the
-  /// key (flock, freed by the kernel when a process dies). `give_up` is polled while it waits. Null when it
-  /// gave up, when the store is read-only or cannot lock: then compute without.
-  class Lock {
-   public:
-    ~Lock();
-    Lock(const Lock&) = delete;
-    Lock& operator=(const Lock&) = delete;
-
-   private:
-    friend class Store;
-    Lock() = default;
-    std::shared_ptr<Impl> store_;
-    std::string name_;
-    int file_ = -1;
-  };
-  std::unique_ptr<Lock> lock(const Digest& key, const std::function<bool()>& give_up);
+  /// key (flock). `give_up` is polled while it waits. Null when it gave up, when the store is read-only or
+  /// cannot lock: then compute without.
+  std::unique_ptr<KeyLock> lock(const Digest& key, const std::function<bool()>& give_up);
+  /// The same without waiting. Neither a lock nor busy: the store is read-only or cannot lock; compute
+  /// without.
+  LockAttempt try_lock(const Digest& key);
 
   /// Puts texts by file name into a new folder runs/<id>/, in this order (history.hpp). False, and nothing is
   /// left, when that is there already or cannot be written. `id`: letters, digits, '.', '_' and '-', not
@@ -153,11 +166,14 @@ class Store {
   /// The first failure to write since open ("cannot write cas/...: No space left on device"), or empty.
   std::string trouble() const;
 
+  /// For the collector, the verifier and the history, which work on the files of all rooms.
+  StoreParts& parts() const { return *parts_; }
+
  private:
   Store() = default;
   std::string root_, why_;
   bool read_only_ = false;
-  std::shared_ptr<Impl> impl_;
+  std::shared_ptr<StoreParts> parts_;
 };
 
 }  // namespace ballflow

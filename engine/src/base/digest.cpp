@@ -2,9 +2,13 @@
 
 #include <openssl/evp.h>
 
+#include <algorithm>
 #include <memory>
 #include <new>
 #include <stdexcept>
+#include <vector>
+
+#include "ballflow/file_system.hpp"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -110,6 +114,43 @@ Checksum Checksummer::finish() const {
 Checksum checksum_of(const void* data, std::size_t size) {
   const XXH128_hash_t hash = XXH3_128bits(data, size);
   return {hash.low64, hash.high64};
+}
+
+bool sum_up(std::span<const std::span<const std::byte>> pieces, Digest* digest, Checksum* checksum,
+            const std::function<bool()>& give_up) {
+  // Both sums of a chunk while it is in the processor's cache.
+  constexpr std::size_t chunk = 128 << 10, chunks_between_looks = 64;
+  std::optional<Hasher> sha;
+  std::optional<Checksummer> xxh;
+  if (digest != nullptr) sha.emplace();
+  if (checksum != nullptr) xxh.emplace();
+  std::size_t chunks = 0;
+  for (const std::span<const std::byte> piece : pieces) {
+    for (std::size_t at = 0; at < piece.size(); at += chunk) {
+      if (++chunks % chunks_between_looks == 0 && give_up && give_up()) return false;
+      const std::size_t size = std::min(chunk, piece.size() - at);
+      if (xxh) xxh->add(piece.data() + at, size);
+      if (sha) sha->add(piece.data() + at, size);
+    }
+  }
+  if (xxh) *checksum = xxh->finish();
+  if (sha) *digest = sha->finish();
+  return true;
+}
+
+std::int64_t sha256_of_file(FileSystem& files, int file, std::uint64_t at_most, Digest& digest) {
+  Hasher hasher;
+  std::vector<char> buffer(1 << 18);
+  std::uint64_t size = 0;
+  while (size <= at_most) {
+    const ssize_t got = files.read(file, buffer.data(), buffer.size());
+    if (got < 0) return got;
+    if (got == 0) break;
+    hasher.add(buffer.data(), static_cast<std::size_t>(got));
+    size += static_cast<std::uint64_t>(got);
+  }
+  digest = hasher.finish();
+  return static_cast<std::int64_t>(size);
 }
 
 }  // namespace ballflow

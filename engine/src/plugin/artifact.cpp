@@ -284,6 +284,10 @@ std::shared_ptr<const Artifact> Artifact::seal(std::string type, int version, st
 
 std::shared_ptr<const Artifact> Artifact::decode(std::span<const std::byte> file,
                                                  std::shared_ptr<const void> owner) {
+  return read(file, std::move(owner));
+}
+
+std::shared_ptr<Artifact> Artifact::read(std::span<const std::byte> file, std::shared_ptr<const void> owner) {
   constexpr std::size_t prefix = sizeof(std::uint64_t);
   if (file.size() < prefix) refuse("it has " + std::to_string(file.size()) + " bytes, too few for a header");
   if (reinterpret_cast<std::uintptr_t>(file.data()) % prefix != 0) refuse("its memory is misaligned");
@@ -374,7 +378,8 @@ std::shared_ptr<const Artifact> Artifact::map(const std::string& path) {
   return map(file, path);
 }
 
-std::shared_ptr<const Artifact> Artifact::map(int file, const std::string& name) {
+std::shared_ptr<const Artifact> Artifact::map(int file, const std::string& name,
+                                              const std::optional<Digest>& known) {
   struct stat status {};
   if (::fstat(file, &status) != 0) {
     throw Error(ExitCode::store, "cannot read " + name + ": " + system_message(errno));
@@ -382,14 +387,16 @@ std::shared_ptr<const Artifact> Artifact::map(int file, const std::string& name)
   if (!S_ISREG(status.st_mode)) throw Error(ExitCode::store, name + " is not a regular file");
   const auto size = static_cast<std::size_t>(status.st_size);
   try {
-    if (size == 0) return decode({}, nullptr);
+    if (size == 0) return read({}, nullptr);
     // Everything is read at once for the checksum: have the pages mapped in one go.
     void* address = ::mmap(nullptr, size, PROT_READ, MAP_SHARED | MAP_POPULATE, file, 0);
     if (address == MAP_FAILED)
       throw Error(ExitCode::store, "cannot map " + name + ": " + system_message(errno));
     const std::shared_ptr<const void> owner(
         address, [size](const void* at) { ::munmap(const_cast<void*>(at), size); });
-    return decode({static_cast<const std::byte*>(address), size}, owner);
+    const auto artifact = read({static_cast<const std::byte*>(address), size}, owner);
+    artifact->digest_ = known;
+    return artifact;
   } catch (const BadArtifact& error) {
     throw BadArtifact(name + ": " + error.what());
   }
@@ -407,39 +414,24 @@ const Digest& Artifact::digest() const {
 }
 
 bool Artifact::hash(const std::function<bool()>& give_up) const {
-  // Who wants the digest soon wants the checksum: both sums of a chunk while it is in the processor's cache.
-  constexpr std::size_t chunk = 128 << 10, chunks_between_looks = 64;
   const std::lock_guard lock(sums_mutex_);
   if (digest_) return true;
-  Hasher digest;
-  Checksummer checksum;
-  std::size_t chunks = 0;
-  for (const std::span<const std::byte> piece : pieces()) {
-    for (std::size_t at = 0; at < piece.size(); at += chunk) {
-      if (++chunks % chunks_between_looks == 0 && give_up && give_up()) return false;
-      const std::size_t size = std::min(chunk, piece.size() - at);
-      if (!checksum_) checksum.add(piece.data() + at, size);
-      digest.add(piece.data() + at, size);
-    }
-  }
-  if (!checksum_) checksum_ = checksum.finish();
-  digest_ = digest.finish();
+  Digest digest;
+  Checksum checksum;  // who wants the digest soon wants the checksum
+  if (!sum_up(pieces(), &digest, checksum_ ? nullptr : &checksum, give_up)) return false;
+  if (!checksum_) checksum_ = checksum;
+  digest_ = digest;
   return true;
 }
 
 Checksum Artifact::checksum() const {
   const std::lock_guard lock(sums_mutex_);
   if (!checksum_) {
-    Checksummer checksum;
-    for (const std::span<const std::byte> piece : pieces()) checksum.add(piece.data(), piece.size());
-    checksum_ = checksum.finish();
+    Checksum checksum;
+    sum_up(pieces(), nullptr, &checksum);
+    checksum_ = checksum;
   }
   return *checksum_;
-}
-
-void Artifact::settle(const Digest& known) const {
-  const std::lock_guard lock(sums_mutex_);
-  if (!digest_) digest_ = known;
 }
 
 std::vector<std::span<const std::byte>> Artifact::pieces() const {

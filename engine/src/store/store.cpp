@@ -79,7 +79,8 @@ std::string random_hex() {
   return text;
 }
 
-struct Store::Impl {
+class StoreParts {
+ public:
   std::shared_ptr<FileSystem> files;
   OpenFile root, cas, ac, runs, pins, tmp, quarantine, memos, locks, leases;
   bool writing = false;
@@ -104,7 +105,7 @@ struct Store::Impl {
   mutable std::mutex trouble_mutex;
   std::string trouble;
 
-  ~Impl() {
+  ~StoreParts() {
     account();
     workspace.reset();
   }
@@ -332,12 +333,14 @@ struct Store::Impl {
     damaged = damaged || !S_ISREG(status.st_mode) || !distrust(status).empty();
     if (!damaged) {
       try {
-        const ArtifactPtr artifact = Artifact::map(file.get(), "cas/" + shard_of(hex) + '/' + rest_of(hex));
+        const std::string shown = "cas/" + shard_of(hex) + '/' + rest_of(hex);
+        // The checksum in `output` vouches for the digest; only when it does not, the file is hashed.
+        const ArtifactPtr artifact = Artifact::map(file.get(), shown, output.digest);
         if (describes(output, *artifact)) {
           touch(file.get(), status);
           return {artifact, false};
         }
-        damaged = artifact->digest() != output.digest;
+        damaged = Artifact::map(file.get(), shown)->digest() != output.digest;
       } catch (const BadArtifact&) {
         damaged = true;
       } catch (const Error&) {  // no memory or no descriptors left: says nothing about the blob
@@ -355,8 +358,8 @@ struct Store::Impl {
 
 std::shared_ptr<Store> Store::open(const StoreOptions& options, std::shared_ptr<FileSystem> files) {
   const std::shared_ptr<Store> store(new Store);
-  store->impl_ = std::make_shared<Impl>();
-  Impl& impl = *store->impl_;
+  store->parts_ = std::make_shared<StoreParts>();
+  StoreParts& impl = *store->parts_;
   impl.files = files != nullptr ? std::move(files) : std::make_shared<FileSystem>();
   store->read_only_ = true;
   if (options.root.empty()) {
@@ -473,52 +476,51 @@ std::string Store::default_root() {
 }
 
 std::optional<ActionEntry> Store::peek_action(const Digest& key) {
-  const auto bytes = impl_->read_entry(impl_->ac, key.hex(), false);
+  const auto bytes = parts_->read_entry(parts_->ac, key.hex(), false);
   return bytes ? decode_action(key, *bytes) : std::nullopt;
 }
 
 std::optional<ActionEntry> Store::find_action(const Digest& key) {
-  const auto bytes = impl_->read_entry(impl_->ac, key.hex(), true);
+  const auto bytes = parts_->read_entry(parts_->ac, key.hex(), true);
   return bytes ? decode_action(key, *bytes) : std::nullopt;
 }
 
-bool Store::put_action(const Digest& key, const ActionEntry& entry, bool sync) {
-  if (!impl_->writing) return false;
-  const auto there = find_action(key);
+ActionPut Store::put_action(const Digest& key, const ActionEntry& entry, bool sync) {
+  if (!parts_->writing) return {};
+  auto there = find_action(key);
   if (there && there->manifest == entry.manifest && there->outputs == entry.outputs &&
       there->warnings == entry.warnings) {
-    return true;
+    return {true, std::nullopt};
   }
   const std::string bytes = encode(key, entry);
-  if (bytes.size() > entry_limit) return impl_->failed("ac/" + key.hex(), -EFBIG);
-  return impl_->publish(impl_->ac, "ac", key.hex(), {std::as_bytes(std::span(bytes))}, sync, true);
+  if (bytes.size() > entry_limit) return {parts_->failed("ac/" + key.hex(), -EFBIG), std::nullopt};
+  ActionPut put;
+  put.stored = parts_->publish(parts_->ac, "ac", key.hex(), {std::as_bytes(std::span(bytes))}, sync, true);
+  if (put.stored && there && there->outputs != entry.outputs) put.disagreed = std::move(there);
+  return put;
 }
 
 bool Store::has_blob(const OutputEntry& output) {
   const std::string hex = output.digest.hex();
-  const OpenFile shard = impl_->open_shard(impl_->cas, hex, false);
+  const OpenFile shard = parts_->open_shard(parts_->cas, hex, false);
   struct stat status {};
-  return shard.is_open() && impl_->files->status(shard.get(), rest_of(hex), status) == 0 &&
+  return shard.is_open() && parts_->files->status(shard.get(), rest_of(hex), status) == 0 &&
          S_ISREG(status.st_mode) && distrust(status).empty() &&
          static_cast<std::uint64_t>(status.st_size) == output.bytes;
 }
 
-ArtifactPtr Store::load(const OutputEntry& output) {
-  const ArtifactPtr artifact = impl_->fetch(output).artifact;
-  if (artifact != nullptr) artifact->settle(output.digest);
-  return artifact;
-}
+ArtifactPtr Store::load(const OutputEntry& output) { return parts_->fetch(output).artifact; }
 
 bool Store::put_blob(const Artifact& artifact, bool sync, const std::function<bool()>& give_up) {
-  if (!impl_->writing) return false;
-  const Impl::Fetched there = impl_->fetch(entry_of(artifact));
+  if (!parts_->writing) return false;
+  const StoreParts::Fetched there = parts_->fetch(entry_of(artifact));
   if (there.artifact != nullptr) return true;
-  return impl_->publish(impl_->cas, "cas", artifact.digest().hex(), artifact.pieces(), sync, there.damaged,
-                        give_up);
+  return parts_->publish(parts_->cas, "cas", artifact.digest().hex(), artifact.pieces(), sync, there.damaged,
+                         give_up);
 }
 
 Digest Store::file_digest(const std::string& path) {
-  FileSystem& files = *impl_->files;
+  FileSystem& files = *parts_->files;
   const auto fail = [&](const std::string& why, const std::string& hint) {
     throw Error(ExitCode::store, "cannot read " + path + ": " + why, hint);
   };
@@ -535,25 +537,20 @@ Digest Store::file_digest(const std::string& path) {
     }
     const FileState state(status);
     if (state.settled(files.now())) {
-      if (const auto memo = impl_->read_entry(impl_->memos, state.memo_name(), true)) {
+      if (const auto memo = parts_->read_entry(parts_->memos, state.memo_name(), true)) {
         const auto known = decode_memo(*memo);
         if (known && known->state == state) return known->digest;
       }
     }
 
-    Hasher hasher;
-    std::vector<char> buffer(1 << 18);
-    std::uint64_t size = 0;
-    while (size <= state.size) {  // no further: a file may grow faster than it is read
-      const ssize_t got = files.read(file.get(), buffer.data(), buffer.size());
-      if (got < 0) fail(message(static_cast<int>(got)), "check the disk");
-      if (got == 0) break;
-      hasher.add(buffer.data(), static_cast<std::size_t>(got));
-      size += static_cast<std::uint64_t>(got);
+    Digest digest;
+    const std::int64_t size = sha256_of_file(files, file.get(), state.size, digest);
+    if (size < 0) fail(message(static_cast<int>(size)), "check the disk");
+    if (files.status(file.get(), status) < 0 || FileState(status) != state ||
+        static_cast<std::uint64_t>(size) != state.size) {
+      continue;
     }
-    if (files.status(file.get(), status) < 0 || FileState(status) != state || size != state.size) continue;
-    const Digest digest = hasher.finish();
-    if (impl_->writing && state.settled(files.now())) impl_->write_memo(state, digest);
+    if (parts_->writing && state.settled(files.now())) parts_->write_memo(state, digest);
     return digest;
   }
   fail("it changes while it is being read", "wait until its writer is done");
@@ -561,48 +558,72 @@ Digest Store::file_digest(const std::string& path) {
 }
 
 bool Store::memo_intact(const Digest& name) {
-  const auto bytes = impl_->read_entry(impl_->memos, name.hex(), false);
+  const auto bytes = parts_->read_entry(parts_->memos, name.hex(), false);
   const auto memo = bytes ? decode_memo(*bytes) : std::nullopt;
   return memo && memo->state.memo_name() == name.hex();
 }
 
-Store::Lock::~Lock() {
-  // Removed while it is locked: whoever waits for it finds out that its file has no name any more.
-  store_->files->remove(store_->locks.get(), name_);
-  store_->files->close(file_);
-}
+namespace {
 
-std::unique_ptr<Store::Lock> Store::lock(const Digest& key, const std::function<bool()>& give_up) {
-  using namespace std::chrono_literals;
-  if (!impl_->writing) return nullptr;
-  FileSystem& files = *impl_->files;
+class FileLock final : public KeyLock {
+ public:
+  /// `keep` keeps `locks`, the folder that the file is in, open.
+  FileLock(std::shared_ptr<FileSystem> files, std::shared_ptr<const void> keep, int locks, std::string name,
+           int file)
+      : files_(std::move(files)),
+        keep_(std::move(keep)),
+        locks_(locks),
+        name_(std::move(name)),
+        file_(file) {}
+  ~FileLock() override {
+    // Removed while it is locked: whoever waits for it finds out that its file has no name any more.
+    files_->remove(locks_, name_);
+    files_->close(file_);
+  }
+
+ private:
+  std::shared_ptr<FileSystem> files_;
+  std::shared_ptr<const void> keep_;
+  int locks_;
+  std::string name_;
+  int file_;
+};
+
+}  // namespace
+
+LockAttempt Store::try_lock(const Digest& key) {
+  if (!parts_->writing) return {};
+  FileSystem& files = *parts_->files;
   const std::string name = key.hex();
-  auto pause = 1ms;
   for (;;) {
-    OpenFile file(files, files.open(impl_->locks.get(), name, O_RDWR | O_CREAT | O_NOFOLLOW, lock_mode));
+    OpenFile file(files, files.open(parts_->locks.get(), name, O_RDWR | O_CREAT | O_NOFOLLOW, lock_mode));
     if (!file.is_open()) {
-      impl_->failed("locks/" + name, file.get());
-      return nullptr;
+      parts_->failed("locks/" + name, file.get());
+      return {};
     }
-    int result = 0;
-    while ((result = files.try_lock(file.get())) == -EWOULDBLOCK) {
-      if (give_up && give_up()) return nullptr;
-      std::this_thread::sleep_for(pause);
-      pause = std::min(2 * pause, 20ms);
-    }
-    if (result < 0) return nullptr;
+    const int result = files.try_lock(file.get());
+    if (result == -EWOULDBLOCK) return {nullptr, true};
+    if (result < 0) return {};
     struct stat held {
     }, named{};
-    if (files.status(file.get(), held) < 0) return nullptr;
-    if (files.status(impl_->locks.get(), name, named) < 0 || named.st_ino != held.st_ino ||
+    if (files.status(file.get(), held) < 0) return {};
+    if (files.status(parts_->locks.get(), name, named) < 0 || named.st_ino != held.st_ino ||
         named.st_dev != held.st_dev) {
       continue;  // its previous owner has removed it
     }
-    std::unique_ptr<Lock> lock(new Lock);
-    lock->store_ = impl_;
-    lock->name_ = name;
-    lock->file_ = file.release();
-    return lock;
+    return {std::make_unique<FileLock>(parts_->files, parts_, parts_->locks.get(), name, file.release()),
+            false};
+  }
+}
+
+std::unique_ptr<KeyLock> Store::lock(const Digest& key, const std::function<bool()>& give_up) {
+  using namespace std::chrono_literals;
+  auto pause = 1ms;
+  for (;;) {
+    LockAttempt attempt = try_lock(key);
+    if (!attempt.busy || (give_up && give_up())) return std::move(attempt.lock);
+    std::this_thread::sleep_for(pause);
+    pause = std::min(2 * pause, 20ms);
   }
 }
 
@@ -614,31 +635,31 @@ bool Store::put_run(const std::string& id, const std::vector<std::pair<std::stri
   if (id.empty() || id.front() == '.' || !std::all_of(id.begin(), id.end(), plain)) {
     throw Error(ExitCode::store, "\"" + id + "\" cannot be the name of a run folder");
   }
-  if (!impl_->writing || impl_->files->make_folder(impl_->runs.get(), id, folder_mode) < 0) return false;
+  if (!parts_->writing || parts_->files->make_folder(parts_->runs.get(), id, folder_mode) < 0) return false;
   std::uint64_t bytes = 0;
   const bool written = [&] {
-    const OpenFile folder(*impl_->files, impl_->files->open(impl_->runs.get(), id, folder_flags));
+    const OpenFile folder(*parts_->files, parts_->files->open(parts_->runs.get(), id, folder_flags));
     if (!folder.is_open()) return false;
     for (const auto& [name, text] : files) {
-      std::optional<Impl::Draft> draft;
-      if (impl_->write_draft({std::as_bytes(std::span(text))}, false, {}, draft) < 0) return false;
-      if (impl_->files->rename(draft->place->folder.get(), draft->name, folder.get(), name, true) < 0)
+      std::optional<StoreParts::Draft> draft;
+      if (parts_->write_draft({std::as_bytes(std::span(text))}, false, {}, draft) < 0) return false;
+      if (parts_->files->rename(draft->place->folder.get(), draft->name, folder.get(), name, true) < 0)
         return false;
       draft->gone = true;
       bytes += disk_bytes(text.size());
     }
     return true;
   }();
-  if ((impl_->added += bytes) >= account_at) account();
+  if ((parts_->added += bytes) >= account_at) account();
   if (!written) remove_run(StoreFolders(*this), id);
   return written;
 }
 
-void Store::account() { impl_->account(); }
+void Store::account() { parts_->account(); }
 
 Store::Statistics Store::statistics() {
   Statistics total;
-  FileSystem& files = *impl_->files;
+  FileSystem& files = *parts_->files;
   const auto names_in = [&files](const OpenFile& folder) {
     std::vector<std::string> names;
     if (folder.is_open()) files.list(folder.get(), names);
@@ -655,29 +676,29 @@ Store::Statistics Store::statistics() {
       }
     }
   };
-  add(impl_->cas, total.blobs, total.blob_bytes);
-  add(impl_->ac, total.actions, total.action_bytes);
-  total.quarantined = names_in(impl_->quarantine).size();
-  total.runs = names_in(impl_->runs).size();
+  add(parts_->cas, total.blobs, total.blob_bytes);
+  add(parts_->ac, total.actions, total.action_bytes);
+  total.quarantined = names_in(parts_->quarantine).size();
+  total.runs = names_in(parts_->runs).size();
   return total;
 }
 
 StoreFolders::StoreFolders(Store& store)
-    : files(store.impl_->files.get()),
-      root(store.impl_->root.get()),
-      cas(store.impl_->cas.get()),
-      ac(store.impl_->ac.get()),
-      runs(store.impl_->runs.get()),
-      pins(store.impl_->pins.get()),
-      quarantine(store.impl_->quarantine.get()),
-      memos(store.impl_->memos.get()),
-      locks(store.impl_->locks.get()),
-      leases(store.impl_->leases.get()),
-      writing(store.impl_->writing) {}
+    : files(store.parts().files.get()),
+      root(store.parts().root.get()),
+      cas(store.parts().cas.get()),
+      ac(store.parts().ac.get()),
+      runs(store.parts().runs.get()),
+      pins(store.parts().pins.get()),
+      quarantine(store.parts().quarantine.get()),
+      memos(store.parts().memos.get()),
+      locks(store.parts().locks.get()),
+      leases(store.parts().leases.get()),
+      writing(store.parts().writing) {}
 
 std::string Store::trouble() const {
-  const std::lock_guard lock(impl_->trouble_mutex);
-  return impl_->trouble;
+  const std::lock_guard lock(parts_->trouble_mutex);
+  return parts_->trouble;
 }
 
 }  // namespace ballflow

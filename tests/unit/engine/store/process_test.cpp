@@ -225,6 +225,30 @@ TEST_F(ProcessTest, a_lock_excludes_other_stores_and_disappears) {
   EXPECT_NE(other->lock(key, {}), nullptr);
 }
 
+TEST_F(ProcessTest, trying_a_lock_tells_a_busy_key_from_a_store_that_cannot_lock) {
+  const auto files = std::make_shared<test::FaultyFileSystem>();
+  const auto store = Store::open({root}, files), other = Store::open({root});
+  LockAttempt held = store->try_lock(key);
+  ASSERT_NE(held.lock, nullptr);
+  EXPECT_FALSE(held.busy);
+  const LockAttempt second = other->try_lock(key);
+  EXPECT_EQ(second.lock, nullptr);
+  EXPECT_TRUE(second.busy);
+  EXPECT_TRUE(store->try_lock(key).busy) << "also for a thread of the same process";
+  EXPECT_EQ(locks(), 1u);
+  held.lock.reset();
+  EXPECT_NE(other->try_lock(key).lock, nullptr);
+  EXPECT_EQ(locks(), 0u);
+
+  const LockAttempt unwritable = Store::open({root, true})->try_lock(key);
+  EXPECT_EQ(unwritable.lock, nullptr);
+  EXPECT_FALSE(unwritable.busy);
+  files->fault = [](const std::string& call) { return call == "try_lock" ? -ENOLCK : 0; };
+  const LockAttempt impossible = store->try_lock(key);
+  EXPECT_EQ(impossible.lock, nullptr);
+  EXPECT_FALSE(impossible.busy) << "waiting would never end";
+}
+
 TEST_F(ProcessTest, a_lock_outlives_its_store) {
   auto store = Store::open({root});
   auto lock = store->lock(key, {});

@@ -156,9 +156,28 @@ TEST_F(StoreTest, another_result_for_the_same_key_replaces_the_entry) {
   const auto store = open();
   store->put_action(key, action);
   const ActionEntry other = action_for(*make_probe(2));
-  EXPECT_TRUE(store->put_action(key, other));
+  const ActionPut put = store->put_action(key, other);
+  EXPECT_TRUE(put.stored);
+  ASSERT_TRUE(put.disagreed) << "the caller can tell which port differs";
+  EXPECT_TRUE(test::equal(*put.disagreed, action));
   EXPECT_TRUE(test::equal(*store->find_action(key), other));
   EXPECT_EQ(names_in(fs::path(place_of(root, "ac", key)).parent_path()).size(), 1u);
+}
+
+TEST_F(StoreTest, an_entry_that_agrees_about_the_outputs_is_no_disagreement) {
+  const auto store = open();
+  EXPECT_FALSE(store->put_action(key, action).disagreed) << "there was none";
+  EXPECT_FALSE(store->put_action(key, action).disagreed);
+  ActionEntry warned = action;
+  warned.warnings = {"another warning"};
+  const ActionPut put = store->put_action(key, warned);
+  EXPECT_TRUE(put.stored);
+  EXPECT_FALSE(put.disagreed);
+  EXPECT_TRUE(test::equal(*store->find_action(key), warned));
+  files->fault = [](const std::string& call) { return call == "write" ? -ENOSPC : 0; };
+  const ActionPut failed = store->put_action(key, action_for(*make_probe(2)));
+  EXPECT_FALSE(failed.stored);
+  EXPECT_FALSE(failed.disagreed) << "nothing was replaced";
 }
 
 TEST_F(StoreTest, flushes_to_disk_only_when_asked) {
@@ -344,7 +363,7 @@ TEST_F(StoreTest, any_failing_call_is_a_miss_and_leaves_nothing_behind) {
         const auto store = Store::open({here}, faulty);
         const auto lock = store->lock(key, {});
         stored = store->put_blob(*probe, true);
-        entered = store->put_action(key, action);
+        entered = store->put_action(key, action).stored;
         if (const ArtifactPtr loaded = store->load(action.outputs[0])) {
           EXPECT_TRUE(test::same(*loaded, *probe));
         }
@@ -489,7 +508,7 @@ TEST_F(StoreTest, a_linked_subfolder_is_neither_read_nor_written) {
     EXPECT_EQ(store->find_action(key).has_value(), blob_moved);
     const auto before = names_in(folder.file("elsewhere"));
     fs::remove(folder.file("elsewhere") + "/" + before.front());
-    const bool blob = store->put_blob(*probe, false), entry = store->put_action(key, action);
+    const bool blob = store->put_blob(*probe, false), entry = store->put_action(key, action).stored;
     EXPECT_EQ(blob, !blob_moved);
     EXPECT_EQ(entry, blob_moved);
     EXPECT_TRUE(names_in(folder.file("elsewhere")).empty()) << "written through the link";
@@ -541,7 +560,7 @@ TEST_F(StoreTest, pipes_and_folders_in_the_place_of_files_are_misses) {
     EXPECT_FALSE(store->find_action(key));
     EXPECT_TRUE(store->put_blob(*probe, false));
     EXPECT_NE(store->load(entry_for(*probe)), nullptr);
-    EXPECT_EQ(store->put_action(key, action), pipe) << "a file does not replace a folder";
+    EXPECT_EQ(store->put_action(key, action).stored, pipe) << "a file does not replace a folder";
     fs::remove_all(root);
   }
 }
