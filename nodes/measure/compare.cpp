@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "search/nearest_tree.hpp"
+#include "search/surface_chain.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -389,6 +390,11 @@ double enclosed_volume(const TriangleMesh& mesh) {
   return std::abs(sum) / 6;
 }
 
+ComparedWith kind_of(const TriangleMesh& mesh) {
+  if (mesh.triangles.empty()) return ComparedWith::cloud;
+  return surface_chain(mesh).closed() ? ComparedWith::closed_mesh : ComparedWith::open_mesh;
+}
+
 void require_comparable(const Balls& balls, const PointSet& points, const TriangleMesh& mesh,
                         const CompareOptions& options) {
   if (!(options.spacing > 0 && std::isfinite(options.spacing))) {
@@ -481,6 +487,7 @@ Comparison compare(const Balls& balls, const PointSet& points, const TriangleMes
   result.union_volume = volume.value;
   result.union_volume_at_least = volume.least;
   result.union_volume_at_most = volume.most;
+  result.compared_with = static_cast<std::uint8_t>(kind_of(mesh));
   if (!surface.is_cloud()) {
     const MeshTopology topology = mesh_topology(mesh);
     result.surface_encloses = topology.closed && topology.oriented ? 1 : 0;

@@ -17,7 +17,7 @@ struct Compare {
   CompareOptions options;
 
   static void declare(NodeDecl<Compare>& d) {
-    d.id("Compare", 1).summary("Measure how far a union of balls is from a surface.");
+    d.id("Compare", 2).summary("Measure how far a union of balls is from a surface.");
     d.doc(
         "Hausdorff distances both ways between the surface and the boundary of the union, with bounds that "
         "hold "
@@ -30,7 +30,8 @@ struct Compare {
     d.input("balls", &Compare::balls).doc("the balls");
     d.input("points", &Compare::points).doc("samples of the surface; used when there is no mesh");
     d.input("mesh", &Compare::mesh).optional().doc("the surface");
-    d.output("comparison", &Compare::comparison).doc("distances and volumes in model units");
+    d.output("comparison", &Compare::comparison)
+        .doc("distances and volumes in model units, and what kind of surface it was");
     d.param("spacing", &Compare::options, &CompareOptions::spacing)
         .unit("% of the longest bounding-box edge")
         .above(0)

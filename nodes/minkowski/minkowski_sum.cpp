@@ -106,19 +106,32 @@ double surface_to_union(const Comparison* comparison) {
   return std::min(comparison->surface_to_union.at_most, comparison->uncovered + comparison->spacing);
 }
 
+ComparedWith compared_with(const Comparison* comparison) {
+  return comparison == nullptr ? ComparedWith::nothing : static_cast<ComparedWith>(comparison->compared_with);
+}
+
 }  // namespace
 
 double error_bound(const Comparison* a, const Comparison* b) {
-  if (a == nullptr && b == nullptr) return -1;
+  if (!why_unbounded(compared_with(a), compared_with(b)).empty()) return -1;
   return surface_to_union(a) + surface_to_union(b);
 }
 
 MinkowskiSum minkowski_sum(const Balls& a, const Balls& b, const MinkowskiSumOptions& options,
-                           Monitor& monitor) {
+                           Monitor& monitor, const SolidComparisons& of) {
   require_usable(a, "a");
   require_usable(b, "b");
+  for (const Comparison* comparison : {of.a, of.b}) {
+    if (comparison == nullptr) continue;
+    if (const std::string broken = broken_invariant(*comparison); !broken.empty()) {
+      throw InputError("a comparison is damaged: " + broken, "compute it again");
+    }
+  }
   const Sums sums(a, b);
   MinkowskiSum result;
+  result.report.a_compared_with = static_cast<std::uint8_t>(compared_with(of.a));
+  result.report.b_compared_with = static_cast<std::uint8_t>(compared_with(of.b));
+  result.report.error_bound = error_bound(of.a, of.b);
   result.report.pairs = sums.pairs();
   if (sums.pairs() == 0) return result;
 

@@ -13,8 +13,9 @@
 namespace ballflow::geometry {
 
 /// No point of the surface of A + B is farther than this from the sum of the unions, for two solids A and B
-/// that were compared with their balls (Compare, with a mesh); null: A is the union of its balls itself.
-/// Negative when both are null: then nothing is known.
+/// that were compared with their balls (Compare, with a closed mesh); null: A is the union of its balls
+/// itself. Negative when both are null, and when one was compared with points or an open mesh, which are no
+/// boundary of a solid: then nothing is known, and why_unbounded says why.
 ///
 /// Proof. A point of the boundary of A + B is p + q with p and q on the boundaries of A and B, because p + B
 /// is inside A + B for p inside A. It is as far from the sum of the unions as p and q are from theirs,
@@ -42,6 +43,12 @@ struct MinkowskiSumOptions {
   MinkowskiKeep keep = MinkowskiKeep::contributing;
 };
 
+/// How far the balls are from the solids they stand for, for the error bound; null: not at all.
+struct SolidComparisons {
+  const Comparison* a = nullptr;
+  const Comparison* b = nullptr;
+};
+
 struct MinkowskiSum {
   Balls balls;  // ascending by center: x, then y, then z
   MinkowskiReport report;
@@ -58,10 +65,11 @@ struct MinkowskiSum {
 /// - Accepts any balls: none (the sum is empty), one (an offset), equal, concentric and touching ones,
 /// centers in a
 ///   plane or on a line, radius 0.
-/// - Throws InputError for balls that break their invariants, for coordinates and radii that are not 0 and
-/// outside
+/// - The report has the error_bound of the comparisons `of` a and b.
+/// - Throws InputError for balls and comparisons that break their invariants, for coordinates and radii that
+/// are not 0 and outside
 ///   [1e-150, 1e150], and for more sums to triangulate than indices or the memory of the machine hold.
 MinkowskiSum minkowski_sum(const Balls& a, const Balls& b, const MinkowskiSumOptions& options = {},
-                           Monitor& monitor = no_monitor());
+                           Monitor& monitor = no_monitor(), const SolidComparisons& of = {});
 
 }  // namespace ballflow::geometry

@@ -20,7 +20,7 @@ struct MinkowskiSum {
   MinkowskiSumOptions options;
 
   static void declare(NodeDecl<MinkowskiSum>& d) {
-    d.id("MinkowskiSum", 1).summary("The Minkowski sum of two unions of balls: again a union of balls.");
+    d.id("MinkowskiSum", 2).summary("The Minkowski sum of two unions of balls: again a union of balls.");
     d.doc(
         "The sums (c + c', r + r') of a ball of either set that contribute to the union of all: those with a "
         "point "
@@ -48,8 +48,9 @@ struct MinkowskiSum {
     d.input("a_comparison", &MinkowskiSum::a_comparison)
         .optional()
         .doc(
-            "a and the mesh of its solid, compared: gives the error bound; without it the solid is the union "
-            "of a");
+            "a and the closed mesh of its solid, compared: gives the error bound; without it the solid is "
+            "the "
+            "union of a");
     d.input("b_comparison", &MinkowskiSum::b_comparison).optional().doc("the same of b");
     d.output("balls", &MinkowskiSum::balls).doc("the contributing sums, ascending by x, y, z of the center");
     d.output("report", &MinkowskiSum::report).doc("numbers of pairs and balls, bounding box, error bound");
@@ -69,9 +70,9 @@ struct MinkowskiSum {
 
   void run(RunContext& context) {
     ContextMonitor monitor(context);
-    geometry::MinkowskiSum sum = geometry::minkowski_sum(*a, *b, options, monitor);
-    sum.report.error_bound = geometry::error_bound(a_comparison ? &*a_comparison : nullptr,
-                                                   b_comparison ? &*b_comparison : nullptr);
+    geometry::MinkowskiSum sum = geometry::minkowski_sum(
+        *a, *b, options, monitor,
+        {.a = a_comparison ? &*a_comparison : nullptr, .b = b_comparison ? &*b_comparison : nullptr});
     balls = std::move(sum.balls);
     report = sum.report;
   }

@@ -313,8 +313,9 @@ void TypeOf<geometry::CoverCheck>::declare(TypeDecl<geometry::CoverCheck>& d) {
 
 void TypeOf<geometry::Comparison>::declare(TypeDecl<geometry::Comparison>& d) {
   using T = geometry::Comparison;
-  d.id("Comparison", 1)
+  d.id("Comparison", 2)
       .doc("How far the boundary of a union of balls is from a surface; lengths in model units.");
+  d.scalar("compared_with", &T::compared_with).doc("the surface: 1 points, 2 an open mesh, 3 a closed mesh");
   d.scalar("surface_samples", &T::surface_samples).doc("number of samples of the surface");
   d.scalar("union_samples", &T::union_samples).doc("number of samples of the boundary of the union");
   d.scalar("spacing", &T::spacing).doc("no point of either is farther from a sample");
@@ -329,6 +330,7 @@ void TypeOf<geometry::Comparison>::declare(TypeDecl<geometry::Comparison>& d) {
   d.scalar("union_volume_at_most", &T::union_volume_at_most).doc("upper bound of it");
   d.scalar("surface_volume", &T::surface_volume).doc("volume that the surface encloses");
   d.scalar("surface_encloses", &T::surface_encloses).doc("1 when the surface is closed and oriented");
+  d.summary("compared_with", "the surface: a closed mesh, an open mesh, or a cloud of points");
   d.summary("hausdorff", "the larger one of the two one-sided distances, from samples");
   d.summary("hausdorff_at_most", "upper bound of it");
   d.summary("surface_to_union", "one-sided distance from the surface to the boundary of the union");
@@ -343,7 +345,8 @@ void TypeOf<geometry::Comparison>::declare(TypeDecl<geometry::Comparison>& d) {
   d.summarize([](const T& v) {
     const bool solid = v.surface_encloses != 0 && v.surface_volume > 0;
     const Json error = solid ? Json((v.union_volume - v.surface_volume) / v.surface_volume) : Json(nullptr);
-    return Json{{"hausdorff", v.hausdorff()},
+    return Json{{"compared_with", in_words(static_cast<geometry::ComparedWith>(v.compared_with))},
+                {"hausdorff", v.hausdorff()},
                 {"hausdorff_at_most", v.hausdorff_at_most()},
                 {"surface_to_union", v.surface_to_union.value},
                 {"union_to_surface", v.union_to_surface.value},
@@ -385,7 +388,7 @@ void TypeOf<geometry::MassProperties>::declare(TypeDecl<geometry::MassProperties
 
 void TypeOf<geometry::MinkowskiReport>::declare(TypeDecl<geometry::MinkowskiReport>& d) {
   using T = geometry::MinkowskiReport;
-  d.id("MinkowskiReport", 1).doc("What the Minkowski sum of two sets of balls came to.");
+  d.id("MinkowskiReport", 2).doc("What the Minkowski sum of two sets of balls came to.");
   d.scalar("pairs", &T::pairs).doc("pairs of balls");
   d.scalar("survivors", &T::survivors)
       .doc("sums of pairs that were triangulated; of algorithm memory: that were vertices at the end");
@@ -395,6 +398,9 @@ void TypeOf<geometry::MinkowskiReport>::declare(TypeDecl<geometry::MinkowskiRepo
   d.scalar("upper", &T::upper).doc("the opposite corner");
   d.scalar("error_bound", &T::error_bound)
       .doc("no point of the surface of the sum of the solids is farther from the union; -1: unknown");
+  d.scalar("a_compared_with", &T::a_compared_with)
+      .doc("the solid a: 0 its balls, 1 points, 2 an open mesh, 3 a closed mesh");
+  d.scalar("b_compared_with", &T::b_compared_with).doc("the same of b");
   d.summary("pairs", "pairs of balls").summary("survivors", "sums of pairs that were triangulated");
   d.summary("count", "sums that contribute: the balls of the result");
   d.summary("touching_boundary", "of these, have a piece of their sphere on the boundary of the union");
@@ -402,14 +408,20 @@ void TypeOf<geometry::MinkowskiReport>::declare(TypeDecl<geometry::MinkowskiRepo
   d.summary(
       "error_bound",
       "no point of the surface of the sum of the solids is farther from the union, model units; null when "
-      "no error of an input is known");
+      "it is unknown");
+  d.summary("error_bound_unknown", "why there is no error bound: no comparison, or one with no closed mesh");
   d.summarize([](const T& v) {
     geometry::Box box;
     if (v.count > 0) box = {v.lower, v.upper};
-    return Json{
-        {"pairs", v.pairs},      {"survivors", v.survivors},
-        {"count", v.count},      {"touching_boundary", v.touching_boundary},
-        {"bbox", box_json(box)}, {"error_bound", v.error_bound < 0 ? Json(nullptr) : Json(v.error_bound)}};
+    const std::string why = geometry::why_unbounded(static_cast<geometry::ComparedWith>(v.a_compared_with),
+                                                    static_cast<geometry::ComparedWith>(v.b_compared_with));
+    return Json{{"pairs", v.pairs},
+                {"survivors", v.survivors},
+                {"count", v.count},
+                {"touching_boundary", v.touching_boundary},
+                {"bbox", box_json(box)},
+                {"error_bound", v.error_bound < 0 ? Json(nullptr) : Json(v.error_bound)},
+                {"error_bound_unknown", why.empty() ? Json(nullptr) : Json(why)}};
   });
   d.check([](const T& v) { return geometry::broken_invariant(v); });
 }

@@ -11,12 +11,31 @@ bool sound(const OneSidedDistance& d) { return in_order(d.at_least, d.value, d.a
 
 }  // namespace
 
+const char* in_words(ComparedWith what) {
+  switch (what) {
+    case ComparedWith::cloud:
+      return "a cloud of points";
+    case ComparedWith::open_mesh:
+      return "an open mesh";
+    case ComparedWith::closed_mesh:
+      return "a closed mesh";
+    case ComparedWith::nothing:
+      break;
+  }
+  return "nothing";
+}
+
 double Comparison::hausdorff() const { return std::max(surface_to_union.value, union_to_surface.value); }
 double Comparison::hausdorff_at_most() const {
   return std::max(surface_to_union.at_most, union_to_surface.at_most);
 }
 
 std::string broken_invariant(const Comparison& c) {
+  if (c.compared_with < static_cast<std::uint8_t>(ComparedWith::cloud) ||
+      c.compared_with > static_cast<std::uint8_t>(ComparedWith::closed_mesh)) {
+    return "compared_with = " + std::to_string(c.compared_with) +
+           " is neither 1 (cloud), 2 (open mesh) nor 3 (closed mesh)";
+  }
   if (c.surface_samples < 0 || c.union_samples < 0) return "a number of samples is negative";
   if (!(c.spacing >= 0)) return "the spacing is not at least 0";
   if (!sound(c.surface_to_union))
@@ -29,6 +48,9 @@ std::string broken_invariant(const Comparison& c) {
     return "the bounds of the volume of the union are not in order";
   }
   if (c.surface_encloses > 1) return "surface_encloses is neither 0 nor 1";
+  if (c.surface_encloses != 0 && !c.with_closed_mesh()) {
+    return "the surface encloses a volume and is no closed mesh";
+  }
   return {};
 }
 

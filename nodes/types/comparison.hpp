@@ -18,7 +18,21 @@ struct OneSidedDistance {
   double mean = 0;  // over the area of X, from samples
 };
 
+/// What a set of balls was compared with: how much its numbers say about a solid.
+enum class ComparedWith : std::uint8_t {
+  nothing,      // there was no comparison
+  cloud,        // points: nothing is known between them
+  open_mesh,    // triangles that bound no solid
+  closed_mesh,  // triangles that bound one: as a chain, turned over where neighbours disagree, they have no
+                // boundary. Edges of four and more triangles are allowed.
+};
+
+/// "a closed mesh", "an open mesh", "a cloud of points", "nothing".
+const char* in_words(ComparedWith what);
+
 struct Comparison {
+  std::uint8_t compared_with = static_cast<std::uint8_t>(ComparedWith::nothing);  // M: not `nothing`
+
   std::int64_t surface_samples = 0, union_samples = 0;
   double spacing = 0;  // no point of M, and none of bd U, is farther than this from a sample
 
@@ -33,6 +47,9 @@ struct Comparison {
   double surface_volume = 0;          // enclosed by M
   std::uint8_t surface_encloses = 0;  // 1 when M is closed and consistently oriented, else its volume is 0
 
+  bool with_closed_mesh() const {
+    return compared_with == static_cast<std::uint8_t>(ComparedWith::closed_mesh);
+  }
   double hausdorff() const;
   double hausdorff_at_most() const;
   /// The mean of the two mean distances.

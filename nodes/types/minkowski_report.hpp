@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/vec3.hpp"
+#include "types/comparison.hpp"
 
 namespace ballflow::geometry {
 
@@ -20,7 +21,14 @@ struct MinkowskiReport {
   // No point of the surface of A + B is farther than this from the union, where A and B are the solids that
   // the balls stand for; negative: unknown. Model units.
   double error_bound = -1;
+  // ComparedWith: what the balls of a and of b were compared with. A solid that was compared with nothing is
+  // the union of its balls.
+  std::uint8_t a_compared_with = 0, b_compared_with = 0;
 };
+
+/// Why there is no error bound; empty when there is one. A bound needs a comparison, and every comparison
+/// must be with a closed mesh: points and open meshes are no boundary of a solid.
+std::string why_unbounded(ComparedWith a, ComparedWith b);
 
 /// Empty when the numbers can be true, else what is wrong.
 std::string broken_invariant(const MinkowskiReport& report);

@@ -66,6 +66,9 @@ std::string comparison(const Json& s) {
   };
   std::string text = "Hausdorff distance " + rounded("hausdorff") + " (at most " +
                      rounded("hausdorff_at_most") + "), mean " + rounded("chamfer");
+  // A closed mesh is what everybody expects.
+  const auto surface = s.at("compared_with").get<std::string>();
+  if (surface != "a closed mesh") text += ", from " + surface;
   if (s.at("volume_error").is_number()) {
     char percent[32];
     std::snprintf(percent, sizeof percent, "%+.2f %%", 100 * s.at("volume_error").get<double>());
@@ -88,6 +91,8 @@ std::string minkowski(const Json& s) {
     char bound[32];
     std::snprintf(bound, sizeof bound, "%.4g", s.at("error_bound").get<double>());
     text += ", error at most " + std::string(bound);
+  } else if (s.at("error_bound_unknown").is_string()) {
+    text += ", error unknown: " + s.at("error_bound_unknown").get<std::string>();
   }
   return text;
 }

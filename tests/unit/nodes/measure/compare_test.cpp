@@ -101,6 +101,41 @@ TEST(compare, ball_through_the_faces_of_a_cube_covers_discs_and_protrudes) {
   expect_within(c.surface_to_union, std::sqrt(3.0) - 1.25);
 }
 
+TEST(compare, says_what_kind_of_surface_it_was) {
+  const auto kind = [](const TriangleMesh& mesh) {
+    const Comparison c = compare(balls_of({{0, 0, 0}}, {1}), {cube().vertices, {}}, mesh, {.spacing = 10});
+    EXPECT_EQ(broken_invariant(c), "");
+    return static_cast<ComparedWith>(c.compared_with);
+  };
+  const auto cube_of = [](std::vector<Triangle> triangles) {
+    return TriangleMesh{cube().vertices, std::move(triangles)};
+  };
+  const TriangleMesh solid = cube();
+  std::vector<Triangle> triangles(solid.triangles.begin(), solid.triangles.end());
+  EXPECT_EQ(kind({}), ComparedWith::cloud);
+  EXPECT_EQ(kind(cube_of(triangles)), ComparedWith::closed_mesh);
+  std::swap(triangles[3][0], triangles[3][1]);
+  EXPECT_EQ(kind(cube_of(triangles)), ComparedWith::closed_mesh) << "one triangle turned over";
+  // A wall inside of two sheets that face opposite ways: edges of four triangles, no boundary.
+  triangles.push_back({0, 1, 6});
+  EXPECT_EQ(kind(cube_of(triangles)), ComparedWith::open_mesh) << "a wall of one sheet";
+  triangles.push_back({0, 6, 1});
+  EXPECT_EQ(kind(cube_of(triangles)), ComparedWith::closed_mesh);
+  triangles.erase(triangles.begin());
+  EXPECT_EQ(kind(cube_of(triangles)), ComparedWith::open_mesh);
+}
+
+TEST(compare, a_comparison_with_nothing_is_damaged) {
+  Comparison c = compare(balls_of({{0, 0, 0}}, {1}), {}, cube(), {.spacing = 10});
+  ASSERT_EQ(broken_invariant(c), "");
+  c.compared_with = static_cast<std::uint8_t>(ComparedWith::open_mesh);
+  EXPECT_NE(broken_invariant(c), "") << "an open mesh encloses nothing";
+  c.compared_with = 0;
+  EXPECT_NE(broken_invariant(c), "");
+  c.compared_with = 4;
+  EXPECT_NE(broken_invariant(c), "");
+}
+
 TEST(compare, sphere_and_its_own_sample_differ_by_the_gaps_of_the_sample) {
   std::vector<Vec3> points;
   std::mt19937 random(1);

@@ -148,6 +148,7 @@ TEST(scene, cuts_polygons_of_a_medial_axis_into_triangles_and_shows_loose_ends) 
 
 TEST(scene, says_what_can_be_drawn_when_a_type_cannot) {
   Comparison comparison;
+  comparison.compared_with = static_cast<std::uint8_t>(ComparedWith::cloud);
   try {
     layers_of(*test::sealed(comparison));
     FAIL() << "nothing was thrown";
