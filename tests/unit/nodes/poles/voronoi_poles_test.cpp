@@ -4,6 +4,7 @@
 #include <CGAL/Gmpq.h>
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <limits>
@@ -403,6 +404,18 @@ TEST(voronoi_poles, of_a_technical_model_do_not_depend_on_numbering_or_threads) 
   const PoleSet parallel = poles_of(sample);
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   EXPECT_TRUE(same(parallel, poles_of(sample)));
+}
+
+TEST(voronoi_poles, of_cospherical_points_are_the_same_for_any_number_of_threads) {
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 4);
+  // Every choice is between equal distances: only the order of the vertices decides.
+  for (const PointSet& sample : {lattice(12), random_lattice_points(9, 3000, 19)}) {
+    const auto with_threads = [&](int threads) {
+      return tbb::task_arena(threads).execute([&] { return poles_of(sample); });
+    };
+    const PoleSet one = with_threads(1);
+    for (const int threads : {2, 4}) EXPECT_TRUE(same(with_threads(threads), one)) << threads;
+  }
 }
 
 TEST(voronoi_poles, far_away_points_touch_only_unbounded_poles) {
