@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-#include "search/nearest_tree.hpp"
+#include "search/box_tree.hpp"
 
 namespace ballflow::geometry {
 
@@ -22,14 +22,13 @@ std::vector<double> pole_bounds(const Balls& balls, const LocalFeatureSize& size
       options.constant == PoleBoundConstant::safe ? 2 * LocalFeatureSize::at_most : LocalFeatureSize::at_most;
   const double c = LocalFeatureSize::discrete_at_least - lost * options.r / (1 - options.r);
   std::vector<double> offsets, slacks;
-  std::vector<Box> boxes;
   for (std::size_t s = 0; s < sizes.points.size(); ++s) {
     offsets.push_back(c * sizes.pole_distances[s]);
     slacks.push_back(-offsets.back());
-    boxes.push_back({sizes.points[s], sizes.points[s]});
   }
   monitor.step(0.1);
-  const NearestTree tree(boxes, slacks);
+  BoxTree tree(sizes.points.span());
+  tree.set_slacks(slacks);
   monitor.step(0.3);
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::vector<double> bounds(balls.size(), infinity);

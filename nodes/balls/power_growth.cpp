@@ -15,7 +15,7 @@
 #include "power/alpha_classes.hpp"
 #include "power/gabriel_points.hpp"
 #include "power/regular_cells.hpp"
-#include "search/nearest_tree.hpp"
+#include "search/box_tree.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -28,10 +28,7 @@ constexpr double stop_before = 1 - 0x1p-41;  // closed balls that reach a point 
 /// How large a ball at each of the centers may be so that it does not reach a point.
 std::vector<double> largest_radii(std::span<const Vec3> points, std::span<const Vec3> centers,
                                   Monitor& monitor) {
-  std::vector<Box> boxes;
-  boxes.reserve(points.size());
-  for (const Vec3& p : points) boxes.push_back({p, p});
-  const NearestTree tree(boxes);
+  const BoxTree tree(points);
   std::vector<double> radii(centers.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, centers.size(), 512), [&](const auto& range) {
     if (monitor.cancelled()) throw Cancelled();

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "search/nearest_tree.hpp"
+#include "search/box_tree.hpp"
 #include "search/surface_chain.hpp"
 
 namespace ballflow::geometry {
@@ -59,23 +59,15 @@ double triangle_distance(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
   return std::min({segment_distance(p, a, b), segment_distance(p, b, c), segment_distance(p, c, a)});
 }
 
-NearestTree tree_of(std::span<const Vec3> points) {
-  std::vector<Box> boxes;
-  boxes.reserve(points.size());
-  for (const Vec3& p : points) boxes.push_back({p, p});
-  return NearestTree(boxes);
-}
-
 /// The union of the balls.
 class Union {
  public:
   explicit Union(const Balls& balls) : balls_(balls) {
-    std::vector<Box> boxes;
-    for (const Vec3& c : balls.centers) boxes.push_back({c, c});
-    tree_ = NearestTree(boxes, balls.radii);
+    tree_ = BoxTree(balls.centers.span());
+    tree_.set_slacks(balls.radii);
   }
 
-  /// The smallest |p - c| - r of the balls but `except`, or `limit`; see NearestTree::smallest. Minus how
+  /// The smallest |p - c| - r of the balls but `except`, or `limit`; see BoxTree::smallest. Minus how
   /// deep p is in the ball in which it is deepest; outside the union its distance.
   double depth(Vec3 p, double limit = infinity, double enough = -infinity, std::size_t except = none) const {
     return tree_.smallest(p, limit, enough, [&](std::size_t i) {
@@ -92,7 +84,7 @@ class Union {
  private:
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
   const Balls& balls_;
-  NearestTree tree_;
+  BoxTree tree_;
 };
 
 /// The surface: triangles, or points where there are none.
@@ -100,15 +92,10 @@ class Surface {
  public:
   Surface(const PointSet& points, const TriangleMesh& mesh) : points_(points.points), mesh_(mesh) {
     if (is_cloud()) {
-      tree_ = tree_of(points_);
+      tree_ = BoxTree(points_.span());
       return;
     }
-    std::vector<Box> boxes;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      const auto corners = triangle(t);
-      boxes.push_back(bounding_box(corners));
-    }
-    tree_ = NearestTree(boxes);
+    tree_ = BoxTree(boxes_of(mesh.vertices, mesh.triangles));
   }
 
   bool is_cloud() const { return mesh_.triangles.empty(); }
@@ -172,7 +159,7 @@ class Surface {
 
   const Array<Vec3> points_;
   const TriangleMesh& mesh_;
-  NearestTree tree_;
+  BoxTree tree_;
 };
 
 /// Samples of the boundary of a union.
@@ -437,7 +424,7 @@ Comparison compare(const Balls& balls, const PointSet& points, const TriangleMes
         "no sample lies on the boundary of the union: every ball shows less than the spacing of it",
         "set a smaller spacing");
   }
-  const NearestTree boundary_tree = tree_of(on_boundary);
+  const BoxTree boundary_tree(on_boundary);
 
   const Tally from_surface =
       merged(by_blocks<Tally>(surface.parts(), monitor, 0.3, 0.5, [&](std::size_t t, Tally& tally) {

@@ -1,14 +1,21 @@
 #include "poles/angle_labels.hpp"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <queue>
 #include <span>
 #include <string>
 #include <utility>
+
+#include "base/lists.hpp"
+#include "search/box_tree.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -19,27 +26,65 @@ constexpr auto outer = static_cast<std::uint8_t>(PoleLabel::outer);
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-/// A list of numbers for each of something.
-struct Lists {
-  std::vector<std::size_t> begin;  // one more than entries
-  std::vector<std::int32_t> items;
-  std::span<const std::int32_t> of(std::size_t i) const {
-    return {items.data() + begin[i], items.data() + begin[i + 1]};
+// A sample with more entries than that is crowded: an outlier inside a shape is a site of as many Voronoi
+// vertices as the shape has samples. Up to it all pairs of the entries at a sample are looked at, which is
+// what every sample of an ordinary model needs; at crowded ones so many of the strongest pairs of every
+// entry, of either kind.
+constexpr std::size_t crowd = 64, strongest = 8;
+
+/// The entries at a crowded sample as points of the unit sphere, each in the direction in which its centre is
+/// seen from the sample, or in the opposite one: the scalar product of two is the certainty of the pair.
+class Directions {
+ public:
+  Directions(std::vector<Vec3> points, Monitor& monitor)
+      : points_(std::move(points)), tree_(points_, BoxTree::default_leaf_size, monitor) {}
+
+  /// The nearest to `p` of all points but number `self`, as many as `found` has room for, the nearest first.
+  /// Returns their number.
+  std::size_t nearest(Vec3 p, std::size_t self, std::span<std::size_t> found) const {
+    std::array<double, strongest> distances{};
+    std::size_t size = 0;
+    tree_.smallest(p, std::numeric_limits<double>::infinity(), 0, [&](std::size_t i) {
+      // To the tree the value of every point is the distance of the last one found so far.
+      const bool full = size == found.size();
+      const double d = distance(p, points_[i]);
+      if (i != self && (!full || d < distances[size - 1])) {
+        std::size_t k = full ? size - 1 : size++;
+        for (; k > 0 && d < distances[k - 1]; --k) {
+          distances[k] = distances[k - 1];
+          found[k] = found[k - 1];
+        }
+        distances[k] = d;
+        found[k] = i;
+      }
+      return size == found.size() ? distances[size - 1] : std::numeric_limits<double>::infinity();
+    });
+    return size;
   }
+
+ private:
+  std::vector<Vec3> points_;
+  BoxTree tree_;
 };
 
 class Spreading {
  public:
   Spreading(const PoleSet& poles, Monitor& monitor)
       : poles_(poles), monitor_(monitor), evidence_(poles.size()) {
-    find_entries();
+    entries_ = lists_of<std::int32_t>(poles_.sample_poles.size(), [&](auto&& put) {
+      for (std::size_t p = 0; p < poles_.size(); ++p) {
+        for (const std::int32_t s : samples_of(p)) put(at(s), static_cast<std::int32_t>(p));
+      }
+    });
     monitor_.step(0.1);
     rank_entries();
+    monitor_.step(0.15);
+    pair_at_crowded_samples();
     monitor_.step(0.2);
   }
 
   AngleLabels run() {
-    AngleLabels result{std::vector<std::uint8_t>(poles_.size(), unlabelled), {}};
+    AngleLabels result{std::vector<std::uint8_t>(poles_.size(), unlabelled), {}, 0};
     std::size_t seeds = 0;
     for (std::size_t i = 0; i < poles_.size(); ++i) {
       if (poles_.unbounded[i] == 0) continue;
@@ -70,6 +115,7 @@ class Spreading {
       });
     }
     result.uncertain = uncertain(result.labels);
+    result.pairs = pairs_;
     return result;
   }
 
@@ -106,47 +152,140 @@ class Spreading {
     return poles_.defining_samples.span().subspan(first, last - first);
   }
 
-  /// Calls visit(entry, whether the label is the same, certainty) for all evidence that p gives; for an entry
-  /// that shares several samples with p more than once.
+  std::span<const std::int32_t> entries_at(std::size_t s) const { return entries_[s]; }
+  bool crowded(std::size_t s) const { return entries_at(s).size() > crowd; }
+
+  /// Calls visit(entry, whether the label is the same, certainty) for what p says about the entries in
+  /// `list`.
   template <class Visit>
-  void for_neighbours(std::size_t p, Visit visit) const {
-    for (const std::int32_t s : samples_of(p)) {
-      look_(entries_.of(at(s)).size());  // an outlier inside a shape is a site of very many entries
-      for (const std::int32_t q : entries_.of(at(s))) {
-        if (at(q) == p) continue;
-        const double d = cosine(p, at(q));
-        if (d > 0) visit(at(q), true, d);
-        if (d < 0) visit(at(q), false, -d);
-      }
+  void look_at(std::size_t p, std::span<const std::int32_t> list, const Visit& visit) {
+    look_(list.size());
+    pairs_ += static_cast<std::int64_t>(list.size());
+    for (const std::int32_t q : list) {
+      if (at(q) == p) continue;
+      const double d = cosine(p, at(q));
+      if (d > 0) visit(at(q), true, d);
+      if (d < 0) visit(at(q), false, -d);
     }
   }
-
-  std::vector<std::uint8_t> uncertain(const std::vector<std::uint8_t>& labels) const {
-    std::vector<std::uint8_t> result(labels.size(), 0);
-    for (std::size_t p = 0; p < labels.size(); ++p) {
-      if (p % 4096 == 0) monitor_.step(0.95);
-      double with = 0, against = 0;
-      for_neighbours(p, [&](std::size_t q, bool same, double certainty) {
-        if (labels[q] == unlabelled) return;
-        double& side = (labels[p] == labels[q]) == same ? with : against;
-        side = std::max(side, certainty);
-      });
-      result[p] = against >= with / 2 && against > 0 ? 1 : 0;
+  /// All evidence that p gives at samples that are not crowded; for an entry that shares several samples with
+  /// p more than once.
+  template <class Visit>
+  void for_neighbours_in_the_open(std::size_t p, const Visit& visit) {
+    for (const std::int32_t s : samples_of(p)) {
+      if (!crowded(at(s))) look_at(p, entries_at(at(s)), visit);
     }
+  }
+  /// That, and the strongest at crowded samples.
+  template <class Visit>
+  void for_neighbours(std::size_t p, const Visit& visit) {
+    for_neighbours_in_the_open(p, visit);
+    look_at(p, std::as_const(strong_pairs_)[p], visit);
+  }
+
+  /// The directions from a sample to the centres of `entries`, whose spheres pass through it, as unit vectors
+  /// in some orthogonal frame: their scalar products are cosines, so three of the entries span a frame for
+  /// all.
+  std::vector<Vec3> directions(std::span<const std::int32_t> entries) const {
+    constexpr double flat = 1e-6;  // what is nearer to a line or a plane than that is in it
+    std::vector<Vec3> result(entries.size());
+    const auto cosines_of = [&](std::size_t pivot, double Vec3::*to) {
+      for (std::size_t i = 0; i < entries.size(); ++i)
+        result[i].*to = cosine(at(entries[i]), at(entries[pivot]));
+    };
+    const auto largest = [&](const auto& key) {
+      const auto less = [&](const Vec3& u, const Vec3& v) { return key(u) < key(v); };
+      return static_cast<std::size_t>(std::max_element(result.begin(), result.end(), less) - result.begin());
+    };
+    cosines_of(entries.size() - 1, &Vec3::x);
+    const std::size_t b = largest([](const Vec3& u) { return 1 - u.x * u.x; });
+    cosines_of(b, &Vec3::y);
+    const double bx = result[b].x, by = std::sqrt(std::max(0.0, 1 - bx * bx));
+    for (Vec3& u : result) u.y = by > flat ? (u.y - u.x * bx) / by : 0;
+    const std::size_t c = largest([](const Vec3& u) { return 1 - u.x * u.x - u.y * u.y; });
+    cosines_of(c, &Vec3::z);
+    const double cx = result[c].x, cy = result[c].y, cz = std::sqrt(std::max(0.0, 1 - cx * cx - cy * cy));
+    for (Vec3& u : result) u.z = cz > flat ? (u.z - u.x * cx - u.y * cy) / cz : 0;
     return result;
   }
 
-  /// The entries whose spheres pass through a sample.
-  void find_entries() {
-    std::vector<std::size_t>& begin = entries_.begin;
-    begin.assign(poles_.sample_poles.size() + 1, 0);
-    for (const std::int32_t s : poles_.defining_samples) ++begin[at(s) + 1];
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    entries_.items.resize(begin.back());
-    std::vector<std::size_t> end(begin.begin(), begin.end() - 1);
-    for (std::size_t p = 0; p < poles_.size(); ++p) {
-      for (const std::int32_t s : samples_of(p)) entries_.items[end[at(s)]++] = static_cast<std::int32_t>(p);
+  void pair_at_crowded_samples() {
+    std::vector<std::array<std::int32_t, 2>> pairs;
+    for (std::size_t s = 0; s < entries_.size(); ++s) {
+      if (!crowded(s)) continue;
+      const std::span<std::int32_t> entries = entries_[s];
+      std::sort(entries.begin(), entries.end(),
+                [this](std::int32_t a, std::int32_t b) { return ranks_[at(a)] < ranks_[at(b)]; });
+      const std::vector<Vec3> to = directions(entries);
+      const Directions all(to, monitor_);
+      const std::size_t before = pairs.size();
+      pairs.resize(before + 2 * strongest * entries.size(), {-1, -1});
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, entries.size(), 512), [&](const auto& range) {
+        if (monitor_.cancelled()) throw Cancelled();
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+          auto* pair = &pairs[before + 2 * strongest * i];
+          for (const Vec3 side : {to[i], -to[i]}) {
+            std::array<std::size_t, strongest> found{};
+            const std::size_t size = all.nearest(side, i, found);
+            for (std::size_t k = 0; k < size; ++k) {
+              const auto [low, high] = std::minmax(entries[i], entries[found[k]]);
+              *pair++ = {low, high};
+            }
+          }
+        }
+      });
     }
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    strong_pairs_ = lists_of<std::int32_t>(poles_.size(), [&](auto&& put) {
+      for (const auto& [p, q] : pairs) {
+        if (p < 0) continue;
+        put(at(p), q);
+        put(at(q), p);
+      }
+    });
+  }
+
+  /// What the evidence against every label is, and what that for it.
+  std::vector<std::uint8_t> uncertain(const std::vector<std::uint8_t>& labels) {
+    std::vector<double> with(labels.size(), 0), against(labels.size(), 0);
+    const auto weigh = [&](std::size_t p) {
+      return [&, p](std::size_t q, bool same, double certainty) {
+        if (labels[q] == unlabelled) return;
+        double& side = (labels[p] == labels[q]) == same ? with[p] : against[p];
+        side = std::max(side, certainty);
+      };
+    };
+    for (std::size_t p = 0; p < labels.size(); ++p) {
+      if (p % 4096 == 0) monitor_.step(0.95);
+      for_neighbours_in_the_open(p, weigh(p));
+    }
+    for (std::size_t s = 0; s < entries_.size(); ++s) {
+      if (!crowded(s)) continue;
+      // With the directions of outer entries turned around, what is near speaks for a label, what is opposite
+      // against it, so that the strongest of either kind is found among all.
+      std::vector<std::int32_t> labelled;
+      for (const std::int32_t p : entries_at(s)) {
+        if (labels[at(p)] != unlabelled) labelled.push_back(p);
+      }
+      if (labelled.size() < 2) continue;
+      std::vector<Vec3> to = directions(labelled);
+      for (std::size_t i = 0; i < to.size(); ++i) {
+        if (labels[at(labelled[i])] == outer) to[i] = -to[i];
+      }
+      const Directions all(to, monitor_);
+      for (std::size_t i = 0; i < to.size(); ++i) {
+        for (const Vec3 side : {to[i], -to[i]}) {
+          std::size_t found = 0;
+          all.nearest(side, i, {&found, 1});
+          look_at(at(labelled[i]), {&labelled[found], 1}, weigh(at(labelled[i])));
+        }
+      }
+    }
+    std::vector<std::uint8_t> result(labels.size());
+    for (std::size_t p = 0; p < labels.size(); ++p)
+      result[p] = against[p] >= with[p] / 2 && against[p] > 0 ? 1 : 0;
+    return result;
   }
 
   /// An order that does not depend on the numbering.
@@ -165,8 +304,10 @@ class Spreading {
 
   const PoleSet& poles_;
   Monitor& monitor_;
-  mutable Lookout look_{monitor_};
-  Lists entries_;  // of each sample
+  Lookout look_{monitor_};
+  Lists<std::int32_t> entries_;       // of each sample: those whose spheres pass through it
+  Lists<std::int32_t> strong_pairs_;  // of each entry: others at a crowded sample
+  std::int64_t pairs_ = 0;
   std::vector<std::int32_t> ranks_;
   std::vector<Evidence> evidence_;
   std::priority_queue<Next> queue_;

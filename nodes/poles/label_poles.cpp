@@ -170,6 +170,19 @@ struct Counts {
 
 }  // namespace
 
+const char* name(LabelMethod method) {
+  switch (method) {
+    case LabelMethod::mesh:
+      return "mesh";
+    case LabelMethod::winding:
+      return "winding";
+    case LabelMethod::angle:
+      return "angle";
+    default:
+      return "auto";
+  }
+}
+
 LabelledPoles label_poles(const PoleSet& poles, const TriangleMesh& mesh, const LabelPolesOptions& options,
                           Monitor& monitor) {
   if (options.method == LabelMethod::angle ||

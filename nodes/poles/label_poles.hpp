@@ -12,6 +12,9 @@ namespace ballflow::geometry {
 
 enum class LabelMethod : std::uint8_t { automatic, mesh, winding, angle };
 
+/// "auto", "mesh", "winding" or "angle".
+const char* name(LabelMethod method);
+
 /// Which outer polar balls are wanted.
 enum class OuterBalls : std::uint8_t {
   all,      // those of unbounded poles too, which end at far-away points
@@ -56,6 +59,8 @@ struct LabelledPoles {
 /// vertex of its cell is on the other.
 ///
 /// Unbounded poles are outer. A pole exactly on the surface is outer.
+///
+/// No triangles, `mesh` may be {}, say that there is no mesh.
 ///
 /// Refuses (InputError) a mesh without triangles when `mesh` or `winding` is asked for, indices out of range,
 /// a mesh that is not closed when `mesh` is asked for, and an inside without any pole: an open sheet has

@@ -20,7 +20,7 @@ struct LabelPoles {
   LabelPolesOptions options;
 
   static void declare(NodeDecl<LabelPoles>& d) {
-    d.id("LabelPoles", 1);
+    d.id("LabelPoles", 2);
     d.summary("Tell inner from outer poles: the discrete medial axis transform of a solid.");
     d.doc(
         "A pole is inner when the winding number of the mesh around it exceeds 1/2. For closed meshes it is "
@@ -53,13 +53,15 @@ struct LabelPoles {
         .doc("polar balls of the inner poles with the samples they pass through");
     d.output("outer", &LabelPoles::outer)
         .doc("polar balls of the outer poles, those of unbounded poles included or not");
-    d.choice(
-         "method", &LabelPoles::options, &LabelPolesOptions::method,
-         {{LabelMethod::automatic, "auto",
-           "mesh when the mesh is closed, angle without triangles, else winding, with a warning"},
-          {LabelMethod::mesh, "mesh", "exact, for closed meshes; refuses others and says why"},
-          {LabelMethod::winding, "winding", "generalized winding number; the same as mesh for closed meshes"},
-          {LabelMethod::angle, "angle", "from the polar balls alone, for clouds without a mesh"}})
+    d.choice("method", &LabelPoles::options, &LabelPolesOptions::method,
+             {{LabelMethod::automatic, name(LabelMethod::automatic),
+               "mesh when the mesh is closed, angle without triangles, else winding, with a warning"},
+              {LabelMethod::mesh, name(LabelMethod::mesh),
+               "exact, for closed meshes; refuses others and says why"},
+              {LabelMethod::winding, name(LabelMethod::winding),
+               "generalized winding number; the same as mesh for closed meshes"},
+              {LabelMethod::angle, name(LabelMethod::angle),
+               "from the polar balls alone, for clouds without a mesh"}})
         .doc("how inside and outside are told apart");
     d.choice("outer", &LabelPoles::options, &LabelPolesOptions::outer,
              {{OuterBalls::all, "all", "balls of unbounded poles too; they end at far-away points"},
@@ -71,9 +73,7 @@ struct LabelPoles {
     ContextMonitor monitor(context);
     geometry::LabelledPoles result =
         geometry::label_poles(*poles, mesh ? *mesh : geometry::TriangleMesh{}, options, monitor);
-    labelled.summary("method", result.method == LabelMethod::mesh      ? "mesh"
-                               : result.method == LabelMethod::winding ? "winding"
-                                                                       : "angle");
+    labelled.summary("method", name(result.method));
     labelled.summary("uncertain", result.uncertain);
     if (result.method == LabelMethod::angle) labelled.summary("unlabelled", result.unlabelled);
     labelled.summary("turned_triangles", result.turned_triangles);

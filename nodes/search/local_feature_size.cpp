@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "search/nearest_tree.hpp"
+#include "search/box_tree.hpp"
 
 namespace ballflow::geometry {
 
@@ -20,7 +20,6 @@ LocalFeatureSize local_feature_size(const PointSet& sample, const PoleSet& poles
                      "connect the points that the poles were computed from");
   }
   std::vector<Vec3> centers;
-  std::vector<Box> boxes;
   // The two poles of Amenta and Bern: third poles depend on labels, and there are none before LabelPoles.
   std::vector<std::uint8_t> pole(poles.size());
   for (const auto& own : poles.sample_poles) {
@@ -31,13 +30,12 @@ LocalFeatureSize local_feature_size(const PointSet& sample, const PoleSet& poles
   for (std::size_t i = 0; i < poles.size(); ++i) {
     if (pole[i] == 0) continue;
     centers.push_back(poles.centers[i]);
-    boxes.push_back({poles.centers[i], poles.centers[i]});
   }
   if (centers.empty() && n > 0) {
     throw InputError("no sample has a pole", "the poles are damaged: compute them again");
   }
   monitor.step(0.1);
-  const NearestTree tree(boxes);
+  const BoxTree tree(centers);
   monitor.step(0.3);
   std::vector<double> distances(n);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 1024), [&](const auto& range) {

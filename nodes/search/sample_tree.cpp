@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <numeric>
 
 #include "search/membership.hpp"
 
@@ -16,7 +15,7 @@ namespace {
 
 // Tuned on samples of 35 000 and 100 000 points: half as much makes too many nodes, twice as much tests too
 // many samples.
-constexpr std::int32_t leaf_size = 32;  // the bits of SampleTree::Hit::samples
+constexpr int leaf_size = 32;  // the bits of SampleTree::Hit::samples
 
 constexpr std::size_t max_depth = 64;  // the size halves at every level
 
@@ -26,15 +25,9 @@ double outside(double low, double high) { return std::max(std::max(low, high), 0
 
 }  // namespace
 
-SampleTree::SampleTree(std::span<const Vec3> samples) : ids_(samples.size()) {
-  std::iota(ids_.begin(), ids_.end(), 0);
-  if (samples.empty()) return;
-  nodes_.reserve(4 * samples.size() / static_cast<std::size_t>(leaf_size) + 1);
-  build(samples, 0, static_cast<std::int32_t>(samples.size()));
-  x_.reserve(samples.size() + leaf_size);
-  y_.reserve(samples.size() + leaf_size);
-  z_.reserve(samples.size() + leaf_size);
-  for (const std::int32_t id : ids_) {
+SampleTree::SampleTree(std::span<const Vec3> samples) : tree_(samples, leaf_size) {
+  for (std::vector<double>* values : {&x_, &y_, &z_}) values->reserve(samples.size() + leaf_size);
+  for (const std::int32_t id : order()) {
     const Vec3& p = samples[static_cast<std::size_t>(id)];
     x_.push_back(p.x);
     y_.push_back(p.y);
@@ -44,29 +37,7 @@ SampleTree::SampleTree(std::span<const Vec3> samples) : ids_(samples.size()) {
   for (std::vector<double>* values : {&x_, &y_, &z_}) values->resize(samples.size() + leaf_size);
 }
 
-void SampleTree::build(std::span<const Vec3> samples, std::int32_t first, std::int32_t last) {
-  Box box;
-  for (std::int32_t i = first; i < last; ++i) {
-    box.add(samples[static_cast<std::size_t>(ids_[static_cast<std::size_t>(i)])]);
-  }
-  const std::size_t self = nodes_.size();
-  nodes_.push_back({box.lower, box.upper, first, last, 0});
-  if (last - first <= leaf_size) return;
-  const Vec3 extent = box.upper - box.lower;
-  double Vec3::*axis = &Vec3::x;
-  if (extent.y > extent.*axis) axis = &Vec3::y;
-  if (extent.z > extent.*axis) axis = &Vec3::z;
-  const std::int32_t middle = first + (last - first) / 2;
-  std::nth_element(
-      ids_.begin() + first, ids_.begin() + middle, ids_.begin() + last, [&](std::int32_t a, std::int32_t b) {
-        return samples[static_cast<std::size_t>(a)].*axis < samples[static_cast<std::size_t>(b)].*axis;
-      });
-  build(samples, first, middle);
-  nodes_[self].right = static_cast<std::int32_t>(nodes_.size());
-  build(samples, middle, last);
-}
-
-std::uint32_t SampleTree::in_leaf(const Node& leaf, Vec3 c, double squared_reach) const {
+std::uint32_t SampleTree::in_leaf(const BoxTree::Node& leaf, Vec3 c, double squared_reach) const {
   const double* const x = x_.data() + leaf.first;
   const double* const y = y_.data() + leaf.first;
   const double* const z = z_.data() + leaf.first;
@@ -91,15 +62,16 @@ std::uint32_t SampleTree::in_leaf(const Node& leaf, Vec3 c, double squared_reach
 }
 
 std::int64_t SampleTree::query(Vec3 c, double squared_reach, std::vector<Hit>& hits) const {
-  if (nodes_.empty()) return 0;
+  const std::span<const BoxTree::Node> nodes = tree_.nodes();
+  if (nodes.empty()) return 0;
   std::int64_t found = 0;
   std::array<std::int32_t, max_depth> stack;
   std::size_t depth = 0;
   std::int32_t at = 0;
   for (;;) {
-    const Node& node = nodes_[static_cast<std::size_t>(at)];
+    const BoxTree::Node& node = nodes[static_cast<std::size_t>(at)];
     // Differences to the lower and to the upper corner bound those to every sample between them.
-    const Vec3 low = node.lower - c, high = c - node.upper;
+    const Vec3 low = node.box.lower - c, high = c - node.box.upper;
     const double nearest =
         squared_norm(outside(low.x, high.x), outside(low.y, high.y), outside(low.z, high.z));
     if (nearest <= squared_reach) {
@@ -108,13 +80,13 @@ std::int64_t SampleTree::query(Vec3 c, double squared_reach, std::vector<Hit>& h
       if (farthest <= squared_reach) {
         hits.push_back({node.first, static_cast<std::uint32_t>(node.last - node.first)});
         found += node.last - node.first;
-      } else if (node.right == 0) {
+      } else if (node.second == 0) {
         if (const std::uint32_t mask = in_leaf(node, c, squared_reach); mask != 0) {
           hits.push_back({~node.first, mask});
           found += std::popcount(mask);
         }
       } else {
-        stack[depth++] = node.right;
+        stack[depth++] = node.second;
         ++at;
         continue;
       }

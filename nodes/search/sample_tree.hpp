@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/vec3.hpp"
+#include "search/box_tree.hpp"
 
 namespace ballflow::geometry {
 
@@ -28,30 +29,22 @@ class SampleTree {
   template <class Found>
   void for_each(const Hit& hit, Found found) const {
     if (hit.first >= 0) {
-      const std::int32_t* id = ids_.data() + hit.first;
+      const std::int32_t* id = order().data() + hit.first;
       for (const std::int32_t* const last = id + hit.samples; id != last; ++id) found(*id);
     } else {
-      const std::int32_t* const ids = ids_.data() + ~hit.first;
+      const std::int32_t* const ids = order().data() + ~hit.first;
       for (std::uint32_t rest = hit.samples; rest != 0; rest &= rest - 1) found(ids[std::countr_zero(rest)]);
     }
   }
 
   /// All samples, neighbours in space near each other: queries in this order find their nodes in the cache.
-  const std::vector<std::int32_t>& order() const { return ids_; }
+  const std::vector<std::int32_t>& order() const { return tree_.order(); }
 
  private:
-  struct Node {
-    Vec3 lower, upper;         // bounding box of its samples
-    std::int32_t first, last;  // its samples, positions in tree order
-    std::int32_t right;        // right child, 0 for a leaf; the left child follows its parent
-  };
+  std::uint32_t in_leaf(const BoxTree::Node& leaf, Vec3 center, double squared_reach) const;
 
-  void build(std::span<const Vec3> samples, std::int32_t first, std::int32_t last);
-  std::uint32_t in_leaf(const Node& leaf, Vec3 center, double squared_reach) const;
-
-  std::vector<Node> nodes_;
-  std::vector<std::int32_t> ids_;  // samples in tree order
-  std::vector<double> x_, y_, z_;  // their coordinates, in tree order, padded to whole leaves
+  BoxTree tree_;
+  std::vector<double> x_, y_, z_;  // coordinates of the samples in tree order, padded to whole leaves
 };
 
 }  // namespace ballflow::geometry

@@ -7,13 +7,15 @@
 #include <limits>
 #include <utility>
 
-#include "search/median_tree.hpp"
+#include "search/box_tree.hpp"
 
 namespace ballflow::geometry {
 
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+constexpr std::size_t leaf_size = 4;
 
 float rounded_down(double value) {
   const auto near = static_cast<float>(value);
@@ -44,20 +46,15 @@ int side_of_edge(Vec3 u, Vec3 v, Vec3 point) {
 SignedCrossings::SignedCrossings(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
                                  Monitor& monitor) {
   if (triangles.empty()) return;
-  MedianTree tree(vertices, triangles, monitor);
-  nodes_.resize(MedianTree::size(triangles.size()));
-  const auto set = [this](std::size_t node, const Box& box, std::size_t link, std::size_t count) {
-    nodes_[node] = {rounded_down(box.lower.x),       rounded_up(box.upper.x), rounded_down(box.lower.y),
-                    rounded_up(box.upper.y),         rounded_up(box.upper.z), static_cast<std::int32_t>(link),
-                    static_cast<std::int32_t>(count)};
-  };
-  tree.build(
-      0, 0, triangles.size(),
-      [&](std::size_t node, const Box& box, std::size_t first, std::size_t last) {
-        set(node, box, first, last - first);
-      },
-      [&](std::size_t node, const Box& box, std::size_t second) { set(node, box, second, 0); });
-  ids_ = std::move(tree.order);
+  const BoxTree tree(boxes_of(vertices, triangles), leaf_size, monitor);
+  nodes_.reserve(tree.nodes().size());
+  for (const auto& [box, first, last, second] : tree.nodes()) {
+    const bool leaf = second == 0;
+    nodes_.push_back({rounded_down(box.lower.x), rounded_up(box.upper.x), rounded_down(box.lower.y),
+                      rounded_up(box.upper.y), rounded_up(box.upper.z), leaf ? first : second,
+                      leaf ? last - first : 0});
+  }
+  ids_ = tree.order();
   corners_.reserve(ids_.size());
   for (const std::int32_t id : ids_) {
     const Triangle& t = triangles[static_cast<std::size_t>(id)];

@@ -5,13 +5,15 @@
 #include <cstddef>
 
 #include "base/arctangent.hpp"
-#include "search/median_tree.hpp"
+#include "search/box_tree.hpp"
 
 namespace ballflow::geometry {
 
 namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+constexpr std::size_t leaf_size = 4;
 
 double farthest_corner(const Box& box, Vec3 from) {
   const Vec3 reach{std::max(from.x - box.lower.x, box.upper.x - from.x),
@@ -33,8 +35,9 @@ double solid_angle_fraction(Vec3 a, Vec3 b, Vec3 c, Vec3 point) {
 SolidAngles::SolidAngles(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
                          Monitor& monitor) {
   if (triangles.empty()) return;
-  MedianTree tree(vertices, triangles, monitor);
-  nodes_.resize(MedianTree::size(triangles.size()));
+  const BoxTree tree(boxes_of(vertices, triangles), leaf_size, monitor);
+  const std::vector<std::int32_t>& order = tree.order();
+  nodes_.resize(tree.nodes().size());
   corners_.resize(triangles.size());
   const auto corner = [&](std::int32_t t, std::size_t k) { return vertices[at(triangles[at(t)][k])]; };
   const auto leaf = [&](std::size_t index, const Box& box, std::size_t first, std::size_t last) {
@@ -44,7 +47,7 @@ SolidAngles::SolidAngles(std::span<const Vec3> vertices, std::span<const Triangl
     Vec3 weighted;
     for (std::size_t i = first; i < last; ++i) {
       Corners& t = corners_[i];
-      t.a = corner(tree.order[i], 0), t.b = corner(tree.order[i], 1), t.c = corner(tree.order[i], 2);
+      t.a = corner(order[i], 0), t.b = corner(order[i], 1), t.c = corner(order[i], 2);
       t.normal = 0.5 * cross(t.b - t.a, t.c - t.a);
       t.area = length(t.normal);
       t.centroid = 1.0 / 3 * (t.a + t.b + t.c);
@@ -66,7 +69,14 @@ SolidAngles::SolidAngles(std::span<const Vec3> vertices, std::span<const Triangl
                                   : 0.5 * (box.lower + box.upper);
     node.radius = farthest_corner(box, node.centroid);
   };
-  tree.build(0, 0, triangles.size(), leaf, inner);
+  for (std::size_t index = nodes_.size(); index-- > 0;) {  // children before their parents
+    const auto& [box, first, last, second] = tree.nodes()[index];
+    if (second == 0) {
+      leaf(index, box, static_cast<std::size_t>(first), static_cast<std::size_t>(last));
+    } else {
+      inner(index, box, static_cast<std::size_t>(second));
+    }
+  }
 }
 
 SolidAngles::Sum SolidAngles::sum(Vec3 point, double tolerance) const {

@@ -41,7 +41,8 @@ TEST(lists, hold_everything_that_threads_put_at_once) {
   Lists<int> lists(count);
   for (std::size_t k = 0; k < count; ++k) lists.count(k, values / count);
   lists.allocate();
-  tbb::parallel_for(0, values, [&](int v) { lists.put_concurrently(static_cast<std::size_t>(v) % count, v); });
+  tbb::parallel_for(0, values,
+                    [&](int v) { lists.put_concurrently(static_cast<std::size_t>(v) % count, v); });
   for (std::size_t k = 0; k < count; ++k) {
     const std::span<int> list = lists[k];
     std::sort(list.begin(), list.end());

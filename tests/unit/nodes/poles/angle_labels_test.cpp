@@ -1,6 +1,8 @@
 #include "poles/angle_labels.hpp"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -152,6 +154,95 @@ TEST(angle_labels, of_mirrored_polar_balls_are_the_same) {
   const AngleLabels other = angle_labels(poles, no_monitor());
   EXPECT_EQ(other.labels, found.labels);
   EXPECT_EQ(other.uncertain, found.uncertain);
+}
+
+/// A cloud on the unit sphere and one point inside, a site of twice as many Voronoi vertices as there are
+/// points.
+PointSet sphere_with_outlier(std::size_t count) {
+  std::mt19937 random(4);
+  const auto coordinate = [&] { return static_cast<double>(random()) / 2147483648.0 - 1; };
+  std::vector<Vec3> points{{0.1, 0.05, 0.02}};
+  while (points.size() <= count) {
+    const Vec3 p{coordinate(), coordinate(), coordinate()};
+    if (const double l = length(p); l > 0.1 && l < 1) points.push_back(1 / l * p);
+  }
+  return {std::move(points), {}};
+}
+
+std::size_t most_entries_at_a_sample(const PoleSet& poles) {
+  std::vector<std::size_t> entries(poles.sample_poles.size(), 0);
+  for (const std::int32_t s : poles.defining_samples) ++entries[static_cast<std::size_t>(s)];
+  return *std::max_element(entries.begin(), entries.end());
+}
+
+TEST(angle_labels, of_a_cloud_with_an_outlier_look_at_few_pairs) {
+  const PoleSet poles = voronoi_poles(sphere_with_outlier(100'000), {});
+  ASSERT_GT(most_entries_at_a_sample(poles), 130'000u);
+  const AngleLabels found = angle_labels(poles, no_monitor());
+  EXPECT_LT(found.pairs, 100 * static_cast<std::int64_t>(poles.size()));
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < poles.size(); ++i) {
+    const PoleLabel side = length(poles.centers[i]) < 1 ? PoleLabel::inner : PoleLabel::outer;
+    wrong += found.labels[i] != static_cast<std::uint8_t>(side) ? 1 : 0;
+  }
+  // Balls on opposite sides of an outlier are taken for opposite sides of a surface, with all pairs 15 % of
+  // them.
+  EXPECT_LT(wrong * 6, poles.size());
+}
+
+TEST(angle_labels, at_a_crowded_sample_are_as_uncertain_as_all_pairs_say) {
+  PoleSet poles = voronoi_poles(sphere_with_outlier(1500), {});
+  // Some labels that the evidence contradicts: balls inside that count as the outside.
+  std::vector<std::uint8_t> unbounded(poles.unbounded.begin(), poles.unbounded.end());
+  for (std::size_t i = 0; i < unbounded.size(); i += 97) unbounded[i] = 1;
+  poles.unbounded = unbounded;
+  const AngleLabels found = angle_labels(poles, no_monitor());
+  std::vector<std::vector<std::size_t>> entries(poles.sample_poles.size());
+  std::vector<double> with(poles.size(), 0), against(poles.size(), 0);
+  for (std::size_t p = 0; p < poles.size(); ++p) {
+    for (auto k = poles.defining_offsets[p]; k < poles.defining_offsets[p + 1]; ++k)
+      entries[static_cast<std::size_t>(poles.defining_samples[static_cast<std::size_t>(k)])].push_back(p);
+  }
+  ASSERT_GT(most_entries_at_a_sample(poles), 2000u);
+  for (const auto& list : entries) {
+    for (const std::size_t p : list) {
+      for (const std::size_t q : list) {
+        if (p == q) continue;
+        const double a = poles.radii[p], b = poles.radii[q];
+        const double d = (a * a + b * b - squared_distance(poles.centers[p], poles.centers[q])) / (2 * a * b);
+        double& side = (found.labels[p] == found.labels[q]) == (d > 0) ? with[p] : against[p];
+        side = std::max(side, std::min(1.0, std::abs(d)));
+      }
+    }
+  }
+  std::size_t uncertain = 0;
+  for (std::size_t p = 0; p < poles.size(); ++p) {
+    const bool clear = std::abs(against[p] - with[p] / 2) > 1e-9;  // the directions are rounded
+    EXPECT_TRUE(!clear || found.uncertain[p] == (against[p] >= with[p] / 2 ? 1 : 0)) << p;
+    uncertain += found.uncertain[p];
+  }
+  EXPECT_GT(uncertain, 0u);
+  EXPECT_LT(uncertain, poles.size());
+}
+
+TEST(angle_labels, at_a_crowded_sample_are_the_same_for_any_numbering_and_number_of_threads) {
+  const PointSet sample = sphere_with_outlier(3000);
+  std::vector<Vec3> permuted(sample.points.begin(), sample.points.end());
+  std::shuffle(permuted.begin(), permuted.end(), std::mt19937(6));
+  const auto labels = [](const PointSet& points, int threads) {
+    return tbb::task_arena(threads).execute([&] {
+      const PoleSet poles = voronoi_poles(points, {});
+      const AngleLabels found = angle_labels(poles, no_monitor());
+      std::map<Vec3, std::pair<std::uint8_t, std::uint8_t>> result;
+      for (std::size_t i = 0; i < poles.size(); ++i)
+        result[poles.centers[i]] = {found.labels[i], found.uncertain[i]};
+      return result;
+    });
+  };
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 4);
+  const auto one = labels(sample, 1);
+  EXPECT_EQ(labels(sample, 4), one);
+  EXPECT_EQ(labels({permuted, {}}, 2), one);
 }
 
 TEST(angle_labels, without_an_outside_are_refused) {
