@@ -38,7 +38,7 @@ class Execution {
   Execution(const DagNode& node, Artifacts inputs, std::int64_t cancel_at = 0)
       : node_(node), inputs_(std::move(inputs)), cancel_at_(cancel_at) {
     Json params = Json::object();
-    for (const ParamDecl& param : node.decl->params) params[param.name] = node.params.at(param.name);
+    for (const ParamDecl& param : node.kind.params()) params[param.name] = node.params.at(param.name);
     const std::string text = params.dump();
     for (const auto& [port, artifact] : inputs_) {
       for (const NamedArray& array : artifact->arrays()) {
@@ -72,7 +72,7 @@ class Execution {
     };
     run.fail = [](void* self, bf_bytes why, bf_bytes) { of(self).cause.assign(why.data, why.size); };
     last_ = cpu_seconds();
-    status = node.decl->entry->run(&run);
+    status = node.kind.declared()->entry->run(&run);
     const double end = cpu_seconds();
     since_last_look(end);
     if (cancelled_at_ >= 0) latency = end - cancelled_at_;
@@ -124,7 +124,7 @@ class Execution {
                        {array.shape, array.shape + array.rank},
                        array.data});
     }
-    const PortDecl* decl = node_.decl->output(port);
+    const PortDecl* decl = node_.kind.output(port);
     outputs[port] = Artifact::seal(decl->type, decl->type_version, std::move(named), summary, owner);
   }
 
@@ -187,7 +187,8 @@ class Cancellation : public testing::Test {
       for (const auto& [port, edge] : node.inputs) {
         if (ArtifactPtr input = artifact(edge)) inputs[port] = std::move(input);
       }
-      made[i] = node.loop ? repeat(*node.loop, inputs) : examine(node, inputs);
+      const Loop* const loop = node.kind.loop();
+      made[i] = loop != nullptr ? repeat(*loop, inputs) : examine(node, inputs);
       if (HasFatalFailure()) return {};
     }
     Artifacts outputs;
@@ -200,12 +201,12 @@ class Cancellation : public testing::Test {
     EXPECT_EQ(whole.status, BF_OK) << node.path << ": " << whole.cause;
     if (whole.status != BF_OK) return {};
     EXPECT_LE(whole.longest, limit())
-        << node.path << " (" << node.decl->id << ") does not look for so long after " << whole.longest_after
-        << " of " << whole.looks << " looks";
-    double& longest = longest_[node.decl->id];
+        << node.path << " (" << node.kind.type() << ") does not look for so long after "
+        << whole.longest_after << " of " << whole.looks << " looks";
+    double& longest = longest_[node.kind.type()];
     longest = std::max(longest, whole.longest);
     ways_.insert(way(node));
-    if (seen_.insert(node.decl->id).second) {
+    if (seen_.insert(node.kind.type()).second) {
       for (const double moment : {0.02, 0.3, 0.6, 0.95}) {
         const auto at = static_cast<std::int64_t>(moment * static_cast<double>(whole.looks)) + 1;
         if (at > whole.looks) continue;
@@ -213,7 +214,7 @@ class Cancellation : public testing::Test {
         // Its last looks may come when nothing is left to be done.
         EXPECT_TRUE(cut.status == BF_CANCELLED || moment > 0.9) << node.path << " at look " << at;
         EXPECT_LE(cut.latency, limit())
-            << node.path << " (" << node.decl->id << ") at look " << at << " of " << whole.looks;
+            << node.path << " (" << node.kind.type() << ") at look " << at << " of " << whole.looks;
         longest = std::max(longest, cut.latency);
       }
     }
@@ -223,12 +224,13 @@ class Cancellation : public testing::Test {
   /// False when every node of `dag` was examined with the same choices.
   bool has_something_new(const Dag& dag) const {
     return std::any_of(dag.nodes.begin(), dag.nodes.end(), [this](const DagNode& node) {
-      return node.loop ? has_something_new(node.loop->body) : ways_.count(way(node)) == 0;
+      const Loop* const loop = node.kind.loop();
+      return loop != nullptr ? has_something_new(loop->body) : ways_.count(way(node)) == 0;
     });
   }
   /// The type of a node and its choices.
   static std::string way(const DagNode& node) {
-    std::string way = node.decl->id;
+    std::string way = node.kind.type();
     for (const auto& [name, value] : node.params) {
       if (value.is_string()) way += ' ' + name + '=' + value.get<std::string>();
     }

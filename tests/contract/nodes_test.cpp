@@ -64,9 +64,7 @@ Json another_value(const ParamDecl& param) {
 }
 
 DagNode with_defaults(const NodeDeclaration& decl) {
-  DagNode node;
-  node.path = "node";
-  node.decl = &decl;
+  DagNode node{"node", decl};
   for (const ParamDecl& param : decl.params) {
     node.params[param.name] = param.required && param.kind == ParamKind::file && !param.schemes.empty()
                                   ? Json(param.schemes.front() + "sphere")

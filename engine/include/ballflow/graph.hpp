@@ -46,6 +46,8 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "ballflow/error.hpp"
@@ -64,23 +66,68 @@ struct Place {
 /// EdgeRef::node of what a loop body gets from outside; the port is then the name of the input.
 constexpr std::size_t loop_input = static_cast<std::size_t>(-1);
 
-struct Loop;
-struct Given;
-
 /// An edge of the flat DAG: output `port` of node `node` (index into Dag::nodes).
 struct EdgeRef {
   std::size_t node = 0;
   std::string port;
 };
 
+struct Loop;
+
+/// An artifact from outside: a node without inputs that never runs.
+struct Given {
+  std::vector<PortDecl> outputs;  // one
+  ArtifactPtr artifact;
+};
+
+/// What a node needs besides its inputs and outputs, in bytes.
+struct MemoryNeed {
+  std::uint64_t fixed = 0;
+  double per_input_byte = 0;
+
+  std::uint64_t for_inputs_of(std::uint64_t bytes) const {
+    return fixed + static_cast<std::uint64_t>(per_input_byte * static_cast<double>(bytes));
+  }
+};
+
+/// What a node is: one that a library declares, a loop, or an artifact from outside. The first is only
+/// referred to and has to live elsewhere, in a registry.
+class NodeKind {
+ public:
+  NodeKind(const NodeDeclaration& declared) : kind_(&declared) {}
+  NodeKind(const NodeDeclaration&&) = delete;
+  NodeKind(std::shared_ptr<const Loop> loop) : kind_(std::move(loop)) {}
+  NodeKind(Given given) : kind_(std::move(given)) {}
+
+  // Null when it is another kind.
+  const NodeDeclaration* declared() const;
+  const Loop* loop() const;
+  const Given* given() const { return std::get_if<Given>(&kind_); }
+
+  /// "Enlarge", "loop" or "artifact". A node of a library cannot be declared with the latter two.
+  const std::string& type() const;
+  /// Behaviour version; 0 of what no library declares.
+  int version() const;
+  /// Versions of libraries that change the results.
+  const std::map<std::string, std::string>& libraries() const;
+  const std::vector<PortDecl>& inputs() const;
+  const std::vector<PortDecl>& outputs() const;
+  /// Null when there is no output of this name.
+  const PortDecl* output(std::string_view name) const;
+  const std::vector<ParamDecl>& params() const;
+  bool uses_seed() const;
+  MemoryNeed memory() const;
+
+ private:
+  std::variant<const NodeDeclaration*, std::shared_ptr<const Loop>, Given> kind_;
+};
+
 struct DagNode {
   std::string path;  // "prune/greedy": node names from the top graph down
-  const NodeDeclaration* decl = nullptr;
-  std::map<std::string, EdgeRef> inputs;  // connected ports only
-  std::map<std::string, Json> params;     // every declared parameter, defaults filled in, checked
-  Place place;
-  std::shared_ptr<const Loop> loop;    // of a loop, else null
-  std::shared_ptr<const Given> given;  // of an artifact from outside, else null
+  NodeKind kind;
+  std::map<std::string, EdgeRef> inputs = {};  // connected ports only
+  std::map<std::string, Json> params = {};     // every declared parameter, defaults filled in, checked
+  Place place = {};
 };
 
 struct DagOutput {
@@ -118,26 +165,25 @@ struct Dag {
   const DagNode* find(const std::string& path) const;
 };
 
-/// What a loop node repeats. DagNode::decl points to `decl`.
+/// A loop: a graph that is one node for what is around it.
 struct Loop {
   struct Comparison {
     std::string state, field;
     enum class Op { equal, unequal, less, at_most, greater, at_least } op = Op::equal;
     double number = 0;
   };
-  NodeDeclaration decl;  // made from the interface of the body; settings of the loop are its parameters
-  Dag body;              // outputs: the states; edges from outside have node `loop_input`
-  std::string until;     // as written
+  std::vector<PortDecl> inputs, outputs;            // of the body; the outputs are the states
+  Dag body;                                         // edges from outside have node `loop_input`
+  std::string until;                                // as written
   std::vector<std::vector<Comparison>> conditions;  // holds when all of any holds
   std::int64_t max_iterations = 0;
   bool stop_at_limit = false;
+  bool uses_seed = false;  // a node of the body does
+  MemoryNeed memory;       // the most that a node of the body needs; they run one at a time
 };
 
-/// An artifact from outside: a node without inputs that never runs. DagNode::decl points to `decl`.
-struct Given {
-  NodeDeclaration decl;  // one output
-  ArtifactPtr artifact;
-};
+/// The parameters that every loop has: until, max_iterations, at_limit.
+const std::vector<ParamDecl>& loop_params();
 
 /// One --set: "epsilon" or "prune/greedy.mode" (also with dots: "prune.greedy.mode"), and its text.
 struct Override {

@@ -123,7 +123,7 @@ std::vector<NodePlan> plan(const Dag& dag, Store& store, std::uint64_t seed, con
 
 /// The entry of a key in the store. One that lacks a declared output, or has it in another version of its
 /// type, is a miss: it comes from a library whose author forgot to raise the behaviour version.
-std::optional<ActionEntry> find_entry(Store& store, const NodeDeclaration& decl, const Digest& key);
+std::optional<ActionEntry> find_entry(Store& store, const NodeKind& kind, const Digest& key);
 
 /// What an entry says of one output.
 OutputEntry output_entry(const std::string& port, const Artifact& artifact);

@@ -131,10 +131,10 @@ class Connector {
     std::vector<std::string> ports;
     std::string owner;
     if (slot.kind == Scope::Slot::Kind::leaf) {
-      const NodeDeclaration& decl = *expansion_.leaves[slot.index].decl;
-      if (decl.output(reference.port) != nullptr) return;
-      for (const PortDecl& port : decl.outputs) ports.push_back(port.name);
-      owner = "node " + in_quotes(producer.name) + " (" + decl.id + ")";
+      const NodeKind& kind = expansion_.leaves[slot.index].kind;
+      if (kind.output(reference.port) != nullptr) return;
+      for (const PortDecl& port : kind.outputs()) ports.push_back(port.name);
+      owner = "node " + in_quotes(producer.name) + " (" + kind.type() + ")";
     } else if (slot.kind == Scope::Slot::Kind::scope) {
       const GraphFile& child = file_of(slot.index);
       if (child.output_index.contains(reference.port)) return;
@@ -164,7 +164,7 @@ class Connector {
       const Scope::Slot slot = expansion_.scopes[scope].slots[reference->index];
       if (slot.kind == Scope::Slot::Kind::broken) return std::nullopt;
       if (slot.kind == Scope::Slot::Kind::leaf) {
-        const PortDecl* port = expansion_.leaves[slot.index].decl->output(reference->port);
+        const PortDecl* port = expansion_.leaves[slot.index].kind.output(reference->port);
         if (port == nullptr) return std::nullopt;
         return PortType{port->type, port->type_version, false};
       }
@@ -182,17 +182,18 @@ class Connector {
       const Scope::Slot slot = expansion_.scopes[scope].slots[i];
       for (const GraphNode::Input& input : file.nodes[i].inputs) check_reference(scope, input.from);
       if (slot.kind == Scope::Slot::Kind::leaf) {
-        const NodeDeclaration& decl = *expansion_.leaves[slot.index].decl;
+        const NodeKind& kind = expansion_.leaves[slot.index].kind;
         std::vector<Consumer> consumers;
-        for (const PortDecl& port : decl.inputs) {
+        for (const PortDecl& port : kind.inputs()) {
           const bool usable = known_type(port.type);  // a loop has the types that its body declares
           consumers.push_back(
               {port.name, {usable ? port.type : std::string(), port.type_version, port.optional || !usable}});
         }
-        check_inputs(scope, file.nodes[i], "node " + in_quotes(file.nodes[i].name) + " (" + decl.id + ")",
+        check_inputs(scope, file.nodes[i], "node " + in_quotes(file.nodes[i].name) + " (" + kind.type() + ")",
                      consumers);
         for (const GraphNode::Input& input : file.nodes[i].inputs) {
-          if (decl.input(input.port) == nullptr) continue;
+          const auto takes = [&](const PortDecl& port) { return port.name == input.port; };
+          if (std::none_of(kind.inputs().begin(), kind.inputs().end(), takes)) continue;
           const Target target = resolve(scope, &input.from);
           if (target.kind == Target::Kind::leaf) edges_[slot.index][input.port] = {target.leaf, target.port};
           if (target.kind == Target::Kind::loop_input || target.kind == Target::Kind::given)
@@ -311,7 +312,7 @@ class Connector {
       const Scope::Slot slot = expansion_.scopes[scope].slots[i];
       if (&file.nodes[i] == &consumer) continue;
       if (slot.kind == Scope::Slot::Kind::leaf) {
-        for (const PortDecl& port : expansion_.leaves[slot.index].decl->outputs) {
+        for (const PortDecl& port : expansion_.leaves[slot.index].kind.outputs()) {
           if (port.type == wanted.type.id) return fits(file.nodes[i].name + "." + port.name);
         }
       } else if (slot.kind == Scope::Slot::Kind::scope) {
@@ -365,7 +366,7 @@ class Connector {
       const Scope::Slot slot = here.slots[reference->index];
       if (slot.kind == Scope::Slot::Kind::broken) break;
       if (slot.kind == Scope::Slot::Kind::leaf) {
-        if (expansion_.leaves[slot.index].decl->output(reference->port) != nullptr) {
+        if (expansion_.leaves[slot.index].kind.output(reference->port) != nullptr) {
           target = {Target::Kind::leaf, slot.index, reference->port};
         }
         break;
@@ -492,11 +493,8 @@ class Connector {
       const std::size_t around = expansion_.scopes[leaf.scope].loop;
       Dag& home = around == nowhere ? dag : expansion_.loops[around].loop->body;
       place[i] = home.nodes.size();
-      DagNode& node = home.nodes.emplace_back();
-      node.path = leaf.path;
-      node.decl = leaf.decl;
+      DagNode& node = home.nodes.emplace_back(DagNode{leaf.path, leaf.kind});
       node.params = leaf.params;
-      if (leaf.loop != nowhere) node.loop = expansion_.loops[leaf.loop].loop;
       for (const auto& [port, edge] : edges_[i]) {
         if (edge.node != loop_input) {
           node.inputs[port] = {place[edge.node], edge.port};
@@ -520,20 +518,12 @@ class Connector {
   std::map<std::string, std::size_t> add_given(Dag& dag) const {
     std::map<std::string, std::size_t> place;
     for (const auto& [name, artifact] : given_) {
-      const auto given = std::make_shared<Given>();
-      given->artifact = artifact;
-      given->decl.id = "artifact";
       PortDecl port;
       port.name = name;
       port.type = artifact->type();
       port.type_version = artifact->version();
-      given->decl.outputs.push_back(std::move(port));
-      DagNode node;
-      node.path = "inputs/" + name;  // no node of a graph is named "inputs"
-      node.decl = &given->decl;
-      node.given = given;
       place[name] = dag.nodes.size();
-      dag.nodes.push_back(std::move(node));
+      dag.nodes.push_back({"inputs/" + name, Given{{port}, artifact}});  // no node is named "inputs"
     }
     return place;
   }
@@ -588,10 +578,10 @@ class Connector {
       if (output.from.node != loop_input) output.from.node = number[output.from.node];
     }
     for (const DagNode& node : body.nodes) {
-      loop.decl.uses_seed = loop.decl.uses_seed || node.decl->uses_seed;
-      loop.decl.memory_fixed = std::max(loop.decl.memory_fixed, node.decl->memory_fixed);
-      loop.decl.memory_per_input_byte =
-          std::max(loop.decl.memory_per_input_byte, node.decl->memory_per_input_byte);
+      const MemoryNeed need = node.kind.memory();
+      loop.uses_seed = loop.uses_seed || node.kind.uses_seed();
+      loop.memory.fixed = std::max(loop.memory.fixed, need.fixed);
+      loop.memory.per_input_byte = std::max(loop.memory.per_input_byte, need.per_input_byte);
     }
   }
 

@@ -179,30 +179,28 @@ class Expander {
       const std::string node_path = path.empty() ? node.name : path + "/" + node.name;
       count_instance(file, node.offset);
       if (!node.broken)
-        scope.slots[i] = node.graph ? include(index, i, node_path) : add_leaf(index, i, node_path);
+        scope.slots[i] =
+            std::visit([&](const auto& kind) { return add(index, i, node_path, kind); }, node.kind);
       if (scope.slots[i].kind == Scope::Slot::Kind::broken) broken_paths_.push_back(node_path);
     }
     return index;
   }
 
-  Scope::Slot add_leaf(std::size_t scope_index, std::size_t node_index, const std::string& path) {
+  Scope::Slot add(std::size_t scope_index, std::size_t node_index, const std::string& path,
+                  const GraphNode::Declared& declared) {
     const Scope& scope = expansion_.scopes[scope_index];
     const GraphNode& node = scope.file->nodes[node_index];
-    const NodeDeclaration* decl = registry_.node(node.type);
+    const NodeDeclaration* decl = registry_.node(declared.type);
     if (decl == nullptr) {
-      std::string hint = did_you_mean(node.type, type_names_);
+      std::string hint = did_you_mean(declared.type, type_names_);
       if (hint.empty())
         hint = type_names_.empty() ? "no node libraries are loaded"
                                    : "node types are " + listed(type_names_, 40);
-      findings_.error(*scope.file, node.type_offset, "unknown node type " + in_quotes(node.type),
+      findings_.error(*scope.file, declared.offset, "unknown node type " + in_quotes(declared.type),
                       std::move(hint));
       return {};
     }
-    Leaf leaf;
-    leaf.path = path;
-    leaf.scope = scope_index;
-    leaf.node = node_index;
-    leaf.decl = decl;
+    Leaf leaf{path, scope_index, node_index, *decl};
     std::vector<std::string> known;
     for (const ParamDecl& param : decl->params) {
       known.push_back(param.name);
@@ -222,24 +220,62 @@ class Expander {
     return {Scope::Slot::Kind::leaf, expansion_.leaves.size() - 1};
   }
 
-  Scope::Slot include(std::size_t scope_index, std::size_t node_index, const std::string& path) {
+  Scope::Slot add(std::size_t scope_index, std::size_t node_index, const std::string& path,
+                  const GraphNode::Subgraph& subgraph) {
     const Scope& scope = expansion_.scopes[scope_index];
-    const GraphNode& node = scope.file->nodes[node_index];
-    const std::optional<Json> name = node.graph->evaluate(scope.params);
-    if (!name) return {};
-    if (!name->is_string()) {
-      findings_.error(*scope.file, node.graph->offset,
-                      (node.loop ? "\"loop\"" : "\"graph\"") + std::string(" must be the path of a file, ") +
-                          described(*name));
-      return {};
-    }
-    std::string key;
-    const GraphFile* file = load(*scope.file, node.graph->offset, name->get<std::string>(), key);
-    if (file == nullptr) return {};
+    const Included included = include(scope, subgraph.file, "\"graph\"");
+    if (included.file == nullptr) return {};
+    Params params = params_of(*included.file, scope, node_index, path, "subgraph", "subgraph");
+    chain_.push_back({included.key, included.file->source.file()});
+    const std::size_t inner = instantiate(*included.file, scope_index, node_index, path, std::move(params));
+    chain_.pop_back();
+    return {Scope::Slot::Kind::scope, inner};
+  }
 
-    std::vector<std::optional<Json>> params;
+  /// A loop is one node for what is around it; its body is a scope that nothing outside sees.
+  Scope::Slot add(std::size_t scope_index, std::size_t node_index, const std::string& path,
+                  const GraphNode::Loop& written) {
+    const Scope& scope = expansion_.scopes[scope_index];
+    const Included included = include(scope, written.body, "\"loop\"");
+    if (included.file == nullptr) return {};
+    Params params = params_of(*included.file, scope, node_index, path, "loop", "loop body");
+    chain_.push_back({included.key, included.file->source.file()});
+    const Scope::Slot slot =
+        add_loop(*included.file, scope_index, node_index, path, written, std::move(params));
+    chain_.pop_back();
+    return slot;
+  }
+
+  /// A node that has no kind was reported.
+  Scope::Slot add(std::size_t, std::size_t, const std::string&, const std::monostate&) { return {}; }
+
+  struct Included {
+    const GraphFile* file = nullptr;  // null when it cannot be used
+    std::string key;
+  };
+  using Params = std::vector<std::optional<Json>>;
+
+  /// The file of a subgraph or of the body of a loop.
+  Included include(const Scope& scope, const Template& path, const char* field) {
+    Included included;
+    const std::optional<Json> name = path.evaluate(scope.params);
+    if (!name) return included;
+    if (name->is_string()) {
+      included.file = load(*scope.file, path.offset, name->get<std::string>(), included.key);
+    } else {
+      findings_.error(*scope.file, path.offset,
+                      field + std::string(" must be the path of a file, ") + described(*name));
+    }
+    return included;
+  }
+
+  /// The parameters of a file that a node includes.
+  Params params_of(const GraphFile& file, const Scope& scope, std::size_t node_index, const std::string& path,
+                   const std::string& node_is, const std::string& file_is) {
+    const GraphNode& node = scope.file->nodes[node_index];
+    Params params;
     std::vector<std::string> known;
-    for (const GraphParam& param : file->params) {
+    for (const GraphParam& param : file.params) {
       known.push_back(param.decl.name);
       if (param.broken) {
         settings_.find(path, param.decl.name);
@@ -250,58 +286,39 @@ class Expander {
       std::optional<Json> value = given_value(scope, node.param(param.decl.name), path, param.decl, given);
       if (!given && param.decl.required) {
         findings_.error(*scope.file, node.offset,
-                        (node.loop ? "loop " : "subgraph ") + in_quotes(node.name) + " (" +
-                            file->source.file() + ") needs a value for its parameter " +
-                            in_quotes(param.decl.name),
+                        node_is + " " + in_quotes(node.name) + " (" + file.source.file() +
+                            ") needs a value for its parameter " + in_quotes(param.decl.name),
                         param_hint(param.decl, nullptr));
       }
       if (!given && !param.decl.required) value = param.decl.default_value;
       params.push_back(std::move(value));
     }
-    refuse_unknown_params(*scope.file, node,
-                          (node.loop ? "loop body " : "subgraph ") + in_quotes(file->source.file()), known);
-
-    chain_.push_back({key, file->source.file()});
-    Scope::Slot slot;
-    if (node.loop) {
-      slot = add_loop(*file, scope_index, node_index, path, std::move(params));
-    } else {
-      slot = {Scope::Slot::Kind::scope, instantiate(*file, scope_index, node_index, path, std::move(params))};
-    }
-    chain_.pop_back();
-    return slot;
+    refuse_unknown_params(*scope.file, node, file_is + " " + in_quotes(file.source.file()), known);
+    return params;
   }
 
-  /// A loop is one node for what is around it; its body is a scope that nothing outside sees.
   Scope::Slot add_loop(const GraphFile& body, std::size_t scope_index, std::size_t node_index,
-                       const std::string& path, std::vector<std::optional<Json>> params) {
+                       const std::string& path, const GraphNode::Loop& written, Params params) {
     const Scope& scope = expansion_.scopes[scope_index];
     const GraphNode& node = scope.file->nodes[node_index];
     const auto loop = std::make_shared<Loop>();
-    bool good = read_interface(*scope.file, node, body, *loop);
-    Leaf leaf;
-    leaf.path = path;
-    leaf.scope = scope_index;
-    leaf.node = node_index;
-    leaf.decl = &loop->decl;
-    leaf.loop = expansion_.loops.size();
-    for (const ParamDecl& param : loop->decl.params) {
+    bool good = read_interface(*scope.file, node, written, body, *loop);
+    Leaf leaf{path, scope_index, node_index, NodeKind(loop)};
+    for (const ParamDecl& param : loop_params()) {
       bool given = false;
-      std::optional<Json> value = given_value(scope, node.setting(param.name), path, param, given);
+      std::optional<Json> value = given_value(scope, written.param(param.name), path, param, given);
       if (!given && !param.required) value = param.default_value;
       good = good && value;
       if (value) leaf.params[param.name] = std::move(*value);
     }
-    if (const auto until = leaf.params.find("until");
-        until != leaf.params.end() && !loop->decl.outputs.empty())
-      good = read_until(scope, node, path, until->second.get<std::string>(), *loop) && good;
+    if (const auto until = leaf.params.find("until"); until != leaf.params.end() && !loop->outputs.empty())
+      good = read_until(scope, node, written, path, until->second.get<std::string>(), *loop) && good;
     if (good) {
       loop->max_iterations = leaf.params.at("max_iterations").get<std::int64_t>();
       loop->stop_at_limit = leaf.params.at("at_limit") == "stop";
     }
-    expansion_.loops.push_back({loop, nowhere});
-    const std::size_t outer = std::exchange(loop_, leaf.loop);
-    expansion_.loops[leaf.loop].scope = expansion_.scopes.size();
+    const std::size_t outer = std::exchange(loop_, expansion_.loops.size());
+    expansion_.loops.push_back({loop, expansion_.scopes.size()});
     instantiate(body, scope_index, node_index, path, std::move(params));
     loop_ = outer;
     if (!good) return {};
@@ -310,17 +327,16 @@ class Expander {
   }
 
   /// The ports of a loop are those of its body.
-  bool read_interface(const GraphFile& file, const GraphNode& node, const GraphFile& body, Loop& loop) {
+  bool read_interface(const GraphFile& file, const GraphNode& node, const GraphNode::Loop& written,
+                      const GraphFile& body, Loop& loop) {
     const std::string owner = "loop " + in_quotes(node.name);
     bool good = true;
-    loop.decl.id = "loop";
-    loop.decl.params = loop_settings();
     for (const GraphParam& param : body.params) {
-      for (const ParamDecl& setting : loop_settings()) {
-        if (param.decl.name != setting.name) continue;
+      for (const ParamDecl& own : loop_params()) {
+        if (param.decl.name != own.name) continue;
         findings_.error(body, param.offset,
                         "the body of " + owner + " cannot have a parameter " + in_quotes(param.decl.name),
-                        "every loop has a setting of that name; choose another one");
+                        "every loop has a parameter of that name; choose another one");
         good = false;
       }
     }
@@ -335,10 +351,10 @@ class Expander {
     };
     for (const GraphInput& input : body.inputs) {
       good = good && !input.broken;
-      loop.decl.inputs.push_back(port(input));
+      loop.inputs.push_back(port(input));
     }
     if (body.outputs.empty()) {
-      findings_.error(file, node.graph->offset,
+      findings_.error(file, written.body.offset,
                       owner + " has no state: " + printable(body.source.file()) + " has no \"outputs\"",
                       "a loop passes its outputs to its inputs of the same names");
       good = false;
@@ -361,22 +377,24 @@ class Expander {
             "input " + in_quotes(state.name) + " is a state of " + owner + " and cannot be optional");
         good = false;
       }
-      loop.decl.outputs.push_back(port(state));
-      loop.decl.outputs.back().optional = false;
+      loop.outputs.push_back(port(state));
+      loop.outputs.back().optional = false;
     }
     return good;
   }
 
-  bool read_until(const Scope& scope, const GraphNode& node, const std::string& path, const std::string& text,
-                  Loop& loop) {
+  bool read_until(const Scope& scope, const GraphNode& node, const GraphNode::Loop& written,
+                  const std::string& path, const std::string& text, Loop& loop) {
     std::vector<UntilProblem> problems;
     loop.until = text;
     loop.conditions = parse_until(
         text, problems, [&](const Loop::Comparison& comparison, std::size_t state_at, std::size_t field_at) {
           std::vector<std::string> known;
-          const PortDecl* const state = loop.decl.output(comparison.state);
-          if (state == nullptr) {
-            for (const PortDecl& port : loop.decl.outputs) known.push_back(port.name);
+          const auto state =
+              std::find_if(loop.outputs.begin(), loop.outputs.end(),
+                           [&](const PortDecl& port) { return port.name == comparison.state; });
+          if (state == loop.outputs.end()) {
+            for (const PortDecl& port : loop.outputs) known.push_back(port.name);
             const std::string hint = did_you_mean(comparison.state, known);
             problems.push_back(
                 {state_at, "loop " + in_quotes(node.name) + " has no state " + in_quotes(comparison.state),
@@ -394,7 +412,6 @@ class Expander {
                               : known.empty() ? "it has no fields"
                                               : "fields are " + listed(known)});
         });
-    const GraphNode::Param* const written = node.setting("until");
     for (UntilProblem& problem : problems) {
       problem.message = "\"until\": " + problem.message;
       if (const Setting* setting = settings_.find(path, "until")) {
@@ -402,7 +419,7 @@ class Expander {
         continue;
       }
       // Inside the text when it stands in the file as it is, without escapes and parameters.
-      const std::size_t begin = written->value.offset;
+      const std::size_t begin = written.param("until")->value.offset;
       const bool verbatim = scope.file->source.content().substr(begin + 1, text.size()) == text &&
                             scope.file->source.content().substr(begin + 1 + text.size(), 1) == "\"";
       findings_.error(*scope.file, static_cast<Offset>(verbatim ? begin + 1 + problem.at : begin),
@@ -481,7 +498,7 @@ class Expander {
     std::vector<std::string> known;
     for (const GraphParam& param : expansion_.scopes[0].file->params) known.push_back(param.decl.name);
     for (const Leaf& leaf : expansion_.leaves) {
-      for (const ParamDecl& param : leaf.decl->params) known.push_back(leaf.path + "." + param.name);
+      for (const ParamDecl& param : leaf.kind.params()) known.push_back(leaf.path + "." + param.name);
     }
     for (std::size_t i = 1; i < expansion_.scopes.size(); ++i) {
       for (const GraphParam& param : expansion_.scopes[i].file->params) {
@@ -522,8 +539,8 @@ class Expander {
 
 }  // namespace
 
-const std::vector<ParamDecl>& loop_settings() {
-  static const std::vector<ParamDecl> settings = [] {
+const std::vector<ParamDecl>& loop_params() {
+  static const std::vector<ParamDecl> params = [] {
     ParamDecl until, most, at_limit;
     until.name = "until";
     until.doc =
@@ -543,7 +560,7 @@ const std::vector<ParamDecl>& loop_settings() {
     at_limit.choices = {{"error", "fail"}, {"stop", "go on with the state reached, and warn"}};
     return std::vector<ParamDecl>{until, most, at_limit};
   }();
-  return settings;
+  return params;
 }
 
 std::string setting_target(const std::string& name) {

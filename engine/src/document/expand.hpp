@@ -65,9 +65,8 @@ struct Leaf {
   std::string path;
   std::size_t scope = 0;
   std::size_t node = 0;  // of the scope's file
-  const NodeDeclaration* decl = nullptr;
-  std::map<std::string, Json> params;
-  std::size_t loop = nowhere;  // what the node is, if it is a loop
+  NodeKind kind;
+  std::map<std::string, Json> params = {};
 };
 
 /// A loop and the scope of its body. Outer loops come before inner ones.
@@ -92,9 +91,6 @@ void expand(const GraphFile& top, GraphFiles& files, const Registry& registry,
 /// are the artifacts for the inputs of the top graph.
 Dag connect(const Expansion& expansion, const Registry& registry,
             const std::map<std::string, ArtifactPtr>& given, Findings& findings);
-
-/// The settings of every loop, as parameters of its node: until, max_iterations, at_limit.
-const std::vector<ParamDecl>& loop_settings();
 
 /// Throws Error when it cannot be read or is larger than the limit of texts.
 std::string read_text_file(const std::string& path);

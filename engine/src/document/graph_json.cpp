@@ -42,8 +42,8 @@ const GraphNode::Input* GraphNode::input(const std::string& port) const {
 const GraphNode::Param* GraphNode::param(const std::string& wanted) const {
   return find_sorted(params, wanted, &Param::name);
 }
-const GraphNode::Param* GraphNode::setting(const std::string& wanted) const {
-  return find_sorted(settings, wanted, &Param::name);
+const GraphNode::Param* GraphNode::Loop::param(const std::string& wanted) const {
+  return find_sorted(params, wanted, &Param::name);
 }
 
 void Findings::error(const GraphFile& file, Offset offset, std::string message, std::string hint) {
@@ -367,30 +367,32 @@ class Reader {
       }
       node.broken = true;
     }
-    node.loop = member.value.find("loop") != nullptr;
-    if (node.loop && member.value.find("until") == nullptr)
+    const bool is_loop = member.value.find("loop") != nullptr;
+    if (is_loop && member.value.find("until") == nullptr)
       error(node.offset, "loop " + in_quotes(node.name) + " has no \"until\"",
             "\"until\": \"state.field == 0\", a field of the summary of a state");
+    std::vector<GraphNode::Param> loop_params;
     for (const Member& field : member.value.members) {
       if (field.key == "doc") text(field, ignored_);
-      if (field.key == "type") {
-        node.broken = !text(field, node.type) || node.broken;
-        node.type_offset = field.value.offset;
-      }
       if (field.key == "until" || field.key == "max_iterations" || field.key == "at_limit") {
-        if (node.loop) {
-          node.settings.push_back({field.key, field.offset, read_template(field.value)});
+        if (is_loop) {
+          loop_params.push_back({field.key, field.offset, read_template(field.value)});
         } else {
           error(field.offset,
                 in_quotes(field.key) + " is for loops, node " + in_quotes(node.name) + " is none",
                 "\"loop\": \"body.json\" makes a node a loop");
         }
       }
-      if (field.key == "graph" || field.key == "loop") {
-        if (std::string ignored; text(field, ignored)) {
-          node.graph = read_template(field.value);
-        } else {
+      if (field.key == "type" || field.key == "graph" || field.key == "loop") {
+        std::string written;
+        if (!text(field, written)) {
           node.broken = true;
+        } else if (field.key == "type") {
+          node.kind = GraphNode::Declared{std::move(written), field.value.offset};
+        } else if (field.key == "graph") {
+          node.kind = GraphNode::Subgraph{read_template(field.value)};
+        } else {
+          node.kind = GraphNode::Loop{read_template(field.value), {}};
         }
       }
       if (field.key == "inputs" && object(field)) {
@@ -404,12 +406,13 @@ class Reader {
         }
       }
     }
+    const auto by_name = [](const auto& a, const auto& b) { return a.name < b.name; };
     std::sort(node.inputs.begin(), node.inputs.end(),
               [](const auto& a, const auto& b) { return a.port < b.port; });
-    std::sort(node.params.begin(), node.params.end(),
-              [](const auto& a, const auto& b) { return a.name < b.name; });
-    std::sort(node.settings.begin(), node.settings.end(),
-              [](const auto& a, const auto& b) { return a.name < b.name; });
+    std::sort(node.params.begin(), node.params.end(), by_name);
+    std::sort(loop_params.begin(), loop_params.end(), by_name);
+    if (auto* loop = std::get_if<GraphNode::Loop>(&node.kind)) loop->params = std::move(loop_params);
+    if (node.broken) node.kind = {};
   }
 
   Template read_template(const Value& value) {

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 #include <unordered_map>
+#include <variant>
 #include <vector>
 
 #include "ballflow/error.hpp"
@@ -68,21 +69,29 @@ struct GraphNode {
     Offset offset = 0;
     Template value;
   };
+  struct Declared {  // by a library
+    std::string type;
+    Offset offset = 0;
+  };
+  struct Subgraph {
+    Template file;
+  };
+  struct Loop {
+    Template body;              // a file
+    std::vector<Param> params;  // its own, by name: at_limit, max_iterations, until
+
+    const Param* param(const std::string& name) const;
+  };
   std::string name;
   Offset offset = 0;
-  std::string type;  // empty when it is a subgraph
-  Offset type_offset = 0;
-  std::optional<Template> graph;  // the file of a subgraph or of the body of a loop
-  bool loop = false;
-  std::vector<Param> settings;  // of a loop, by name: at_limit, max_iterations, until
-  std::vector<Input> inputs;    // by port
-  std::vector<Param> params;    // by name
+  std::variant<std::monostate, Declared, Subgraph, Loop> kind;  // nothing when it is broken
+  std::vector<Input> inputs;                                    // by port
+  std::vector<Param> params;                                    // by name; of a loop those of its body
   bool broken = false;
   bool used = false;
 
   const Input* input(const std::string& port) const;
   const Param* param(const std::string& name) const;
-  const Param* setting(const std::string& name) const;
 };
 
 struct GraphOutput {

@@ -422,13 +422,14 @@ void append(std::string& to, std::string_view text) {
 /// What a node is but for its inputs.
 void append_identity(std::string& to, const DagNode& node) {
   append(to, node.path);
-  append(to, node.decl->id);
+  append(to, node.kind.type());
   for (const auto& [name, value] : node.params) {
     append(to, name);
     append(to, value.dump());
   }
-  if (node.loop == nullptr) return;
-  const Dag& body = node.loop->body;
+  const Loop* const loop = node.kind.loop();
+  if (loop == nullptr) return;
+  const Dag& body = loop->body;
   for (const DagNode& inner : body.nodes) {
     append_identity(to, inner);
     for (const auto& [port, edge] : inner.inputs) {

@@ -58,7 +58,7 @@ void Runner::Impl::disagree(std::size_t i) {
 
 /// The artifact of a resolved node: held in memory, read from the store, or made again for `reader`.
 ArtifactPtr Runner::Impl::ensure(const EdgeRef& edge, std::size_t reader) {
-  if (const auto& given = dag_.nodes[edge.node].given) return given->artifact;
+  if (const Given* given = dag_.nodes[edge.node].kind.given()) return given->artifact;
   State& state = *states_[edge.node];
   const std::lock_guard lock(state.mutex);
   if (const auto held = state.held.find(edge.port); held != state.held.end()) return held->second;

@@ -102,7 +102,7 @@ void Runner::Impl::check_determinism() {
   for (std::size_t i = 0; i < dag_.nodes.size(); ++i) {
     NodeResult& result = result_.nodes[i];
     if (result.status != NodeStatus::hit && result.status != NodeStatus::run) continue;
-    if (!may_run(i) || dag_.nodes[i].given) continue;
+    if (!may_run(i) || dag_.nodes[i].kind.given() != nullptr) continue;
     if (result_.nodes[i].reason.rfind("same computation as ", 0) == 0) continue;
     emit({Event::Kind::node_started, i});
     try {

@@ -28,14 +28,14 @@ OutputEntry output_entry(const std::string& port, const Artifact& artifact) {
           artifact.summary()};
 }
 
-std::optional<ActionEntry> find_entry(Store& store, const NodeDeclaration& decl, const Digest& key) {
+std::optional<ActionEntry> find_entry(Store& store, const NodeKind& kind, const Digest& key) {
   std::optional<ActionEntry> entry = store.find_action(key);
   const auto gives = [&entry](const PortDecl& port) {
     return std::any_of(entry->outputs.begin(), entry->outputs.end(), [&port](const OutputEntry& output) {
       return output.port == port.name && output.type == port.type && output.type_version == port.type_version;
     });
   };
-  if (entry && !std::all_of(decl.outputs.begin(), decl.outputs.end(), gives)) entry.reset();
+  if (entry && !std::all_of(kind.outputs().begin(), kind.outputs().end(), gives)) entry.reset();
   return entry;
 }
 

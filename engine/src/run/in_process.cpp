@@ -110,7 +110,7 @@ double thread_cpu_seconds() {
 
 /// Outputs are hashed here, where the node may use several threads and a cancellation is seen.
 void execute_and_hash(const ExecutionRequest& request, ExecutionOutcome& outcome) {
-  outcome = request.node->loop ? execute_loop(request) : execute_node(request);
+  outcome = request.node->kind.loop() != nullptr ? execute_loop(request) : execute_node(request);
   for (const auto& [port, artifact] : outcome.outputs) {
     if (!artifact->hash(request.cancelled)) outcome.status = ExecutionOutcome::Status::cancelled;
   }

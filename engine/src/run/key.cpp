@@ -102,22 +102,21 @@ Json body_manifest(const Dag& body, Store& store);
 
 /// What a node does, without its inputs.
 Json node_manifest(const DagNode& node, Store& store) {
-  const NodeDeclaration& decl = *node.decl;
-  Json manifest = {{"node", decl.id}, {"version", decl.version}};
+  Json manifest = {{"node", node.kind.type()}, {"version", node.kind.version()}};
   manifest["libraries"] = Json::object();
-  for (const auto& [name, version] : decl.libraries) manifest["libraries"][name] = version;
+  for (const auto& [name, version] : node.kind.libraries()) manifest["libraries"][name] = version;
   Json params = Json::object();
-  for (const ParamDecl& param : decl.params) {
+  for (const ParamDecl& param : node.kind.params()) {
     if (param.hashed) params[param.name] = key_value(param, node.params.at(param.name), store);
   }
   manifest["params"] = std::move(params);
-  if (node.loop) manifest["body"] = body_manifest(node.loop->body, store);
+  if (const Loop* loop = node.kind.loop()) manifest["body"] = body_manifest(loop->body, store);
   return manifest;
 }
 
 /// The nodes of a loop body by position and type, because names are in no key, and how they are connected.
 Json body_manifest(const Dag& body, Store& store) {
-  const auto name = [&](std::size_t i) { return std::to_string(i) + ":" + body.nodes[i].decl->id; };
+  const auto name = [&](std::size_t i) { return std::to_string(i) + ":" + body.nodes[i].kind.type(); };
   const auto source = [&](const EdgeRef& edge) {
     return (edge.node == loop_input ? "inputs" : name(edge.node)) + "." + edge.port;
   };
@@ -139,12 +138,13 @@ Json body_manifest(const Dag& body, Store& store) {
 /// which they are easiest to read, the bytes have them sorted.
 ActionKey action_key(const DagNode& node, const std::map<std::string, OutputEntry>& inputs,
                      std::uint64_t seed, Store& store) {
-  const NodeDeclaration& decl = *node.decl;
+  const NodeKind& kind = node.kind;
   std::vector<std::pair<std::string_view, Json>> params;
-  for (const ParamDecl& param : decl.params) {
+  for (const ParamDecl& param : kind.params()) {
     if (param.hashed) params.emplace_back(param.name, key_value(param, node.params.at(param.name), store));
   }
-  const Json body = node.loop ? body_manifest(node.loop->body, store) : Json();
+  const Loop* const loop = kind.loop();
+  const Json body = loop != nullptr ? body_manifest(loop->body, store) : Json();
 
   std::string text;
   text.reserve(512);
@@ -157,12 +157,12 @@ ActionKey action_key(const DagNode& node, const std::map<std::string, OutputEntr
   add_member("format");
   write_number(key_format, text);
   add_member("node");
-  write_string(decl.id, text);
+  write_string(kind.type(), text);
   add_member("version");
-  write_number(decl.version, text);
+  write_number(kind.version(), text);
   add_member("libraries");
   text += '{';
-  for (const auto& [name, version] : decl.libraries) {
+  for (const auto& [name, version] : kind.libraries()) {
     add_member(name);
     write_string(version, text);
   }
@@ -174,12 +174,12 @@ ActionKey action_key(const DagNode& node, const std::map<std::string, OutputEntr
     write_value(value, text);
   }
   text += '}';
-  if (node.loop) {
+  if (loop != nullptr) {
     add_member("body");
     text += body.dump();
   }
   add_member("seed");
-  if (decl.uses_seed) {
+  if (kind.uses_seed()) {
     write_number(seed, text);
   } else {
     text += "null";
@@ -214,8 +214,8 @@ ActionKey action_key(const DagNode& node, const std::map<std::string, OutputEntr
     add_tag(bytes, 'o');
     add_u64(bytes, members);
   };
-  add_object(node.loop ? 8 : 7);
-  if (node.loop) {
+  add_object(loop != nullptr ? 8 : 7);
+  if (loop != nullptr) {
     add_text(bytes, "body");
     add_value(bytes, body);
   }
@@ -234,13 +234,13 @@ ActionKey action_key(const DagNode& node, const std::map<std::string, OutputEntr
     add_integer(static_cast<std::uint64_t>(entry.type_version));
   }
   add_text(bytes, "libraries");
-  add_object(decl.libraries.size());
-  for (const auto& [name, version] : decl.libraries) {
+  add_object(kind.libraries().size());
+  for (const auto& [name, version] : kind.libraries()) {
     add_text(bytes, name);
     add_string(version);
   }
   add_text(bytes, "node");
-  add_string(decl.id);
+  add_string(kind.type());
   add_text(bytes, "params");
   add_object(params.size());
   std::sort(params.begin(), params.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -249,13 +249,13 @@ ActionKey action_key(const DagNode& node, const std::map<std::string, OutputEntr
     add_value(bytes, value);
   }
   add_text(bytes, "seed");
-  if (decl.uses_seed) {
+  if (kind.uses_seed()) {
     add_integer(seed);
   } else {
     add_tag(bytes, 'n');
   }
   add_text(bytes, "version");
-  add_integer(static_cast<std::uint64_t>(decl.version));
+  add_integer(static_cast<std::uint64_t>(kind.version()));
   return {sha256(bytes), std::move(text)};
 }
 

@@ -19,7 +19,7 @@ struct Ended {};
 class LoopRun {
  public:
   explicit LoopRun(const ExecutionRequest& request)
-      : request_(request), loop_(*request.node->loop), states_(request.inputs) {}
+      : request_(request), loop_(*request.node->kind.loop()), states_(request.inputs) {}
 
   ExecutionOutcome run() {
     try {
@@ -79,10 +79,10 @@ class LoopRun {
       request.message = [&](bool warning, const std::string& text) {
         pass_on(warning, request.node->path + ": " + text);
       };
-      ExecutionOutcome step = request.node->loop ? execute_loop(request) : execute_node(request);
+      ExecutionOutcome step = request.node->kind.loop() != nullptr ? execute_loop(request) : execute_node(request);
       if (step.status != ExecutionOutcome::Status::ok) {
         if (step.status == ExecutionOutcome::Status::failed) {
-          outcome_.cause = request.node->path + " (" + request.node->decl->id + ") failed in iteration " +
+          outcome_.cause = request.node->path + " (" + request.node->kind.type() + ") failed in iteration " +
                            std::to_string(iteration_) + ": " + step.cause;
           outcome_.hint = step.hint;
           outcome_.failed_call =
@@ -133,11 +133,11 @@ class LoopRun {
 ExecutionOutcome execute_loop(const ExecutionRequest& request) { return LoopRun(request).run(); }
 
 std::optional<std::string> file_read_by(const DagNode& node) {
-  for (const ParamDecl& param : node.decl->params) {
+  for (const ParamDecl& param : node.kind.params()) {
     if (param.kind == ParamKind::file && param.hashed) return plain_text(node.params.at(param.name));
   }
-  if (node.loop) {
-    for (const DagNode& inner : node.loop->body.nodes) {
+  if (const Loop* loop = node.kind.loop()) {
+    for (const DagNode& inner : loop->body.nodes) {
       if (std::optional<std::string> file = file_read_by(inner)) return file;
     }
   }

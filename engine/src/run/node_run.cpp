@@ -121,7 +121,7 @@ class Host {
     auto owner = std::make_shared<HandedOver>();
     owner->arrays.assign(arrays, arrays + count);
     try {
-      const PortDecl* decl = request_.node->decl->output(port);
+      const PortDecl* decl = request_.node->kind.output(port);
       if (decl == nullptr)
         throw Error(ExitCode::plugin, "the node gave an output \"" + port + "\" that it does not declare");
       std::vector<NamedArray> named;
@@ -163,7 +163,7 @@ class Host {
 ExecutionOutcome execute_node(const ExecutionRequest& request) {
   Host host(request);
   const bf_run table = host.table();
-  const int status = request.node->decl->entry->run(&table);
+  const int status = request.node->kind.declared()->entry->run(&table);
   ExecutionOutcome outcome = std::move(host.outcome);
 
   // An output that the engine refused reaches the node as a cancellation; the recorded cause decides.
@@ -171,7 +171,7 @@ ExecutionOutcome execute_node(const ExecutionRequest& request) {
     outcome.status = ExecutionOutcome::Status::failed;
   } else if (status == BF_OK) {
     outcome.status = ExecutionOutcome::Status::ok;
-    for (const PortDecl& port : request.node->decl->outputs) {
+    for (const PortDecl& port : request.node->kind.outputs()) {
       if (outcome.outputs.count(port.name) != 0) continue;
       outcome.status = ExecutionOutcome::Status::failed;
       outcome.cause = "the node did not give its output \"" + port.name + "\"";

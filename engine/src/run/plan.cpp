@@ -37,8 +37,7 @@ void guess(const Dag& dag, std::vector<NodePlan>& plans,
       known = known && size != bytes[edge.node].end();
       if (size != bytes[edge.node].end()) input_bytes += size->second;
     }
-    plan.memory = node.decl->memory_fixed + static_cast<std::uint64_t>(node.decl->memory_per_input_byte *
-                                                                       static_cast<double>(input_bytes));
+    plan.memory = node.kind.memory().for_inputs_of(input_bytes);
     if (entries[i]) {
       for (const OutputEntry& output : entries[i]->outputs) bytes[i][output.port] = output.bytes;
       plan.seconds = entries[i]->seconds;
@@ -70,10 +69,10 @@ std::vector<NodePlan> plan(const Dag& dag, Store& store, std::uint64_t seed, con
       plan.reason = "no output of the graph needs it";
       continue;
     }
-    if (node.given) {
+    if (const Given* given = node.kind.given()) {
       plan.verdict = Verdict::hit;
       plan.reason = "given";
-      entries[i].emplace().outputs.push_back(output_entry(node.decl->outputs[0].name, *node.given->artifact));
+      entries[i].emplace().outputs.push_back(output_entry(given->outputs[0].name, *given->artifact));
       continue;
     }
     std::map<std::string, OutputEntry> inputs;
@@ -94,7 +93,7 @@ std::vector<NodePlan> plan(const Dag& dag, Store& store, std::uint64_t seed, con
       plan.reason = "waits for " + unknown + "; a hit if that gives the same content as before";
       continue;
     }
-    entries[i] = find_entry(store, *node.decl, key.key);
+    entries[i] = find_entry(store, node.kind, key.key);
     if (entries[i]) {
       plan.verdict = Verdict::hit;
       plan.reason = "same inputs and parameters";
@@ -119,7 +118,7 @@ std::vector<NodePlan> plan(const Dag& dag, Store& store, std::uint64_t seed, con
     for (const auto& [port, edge] : dag.nodes[i].inputs) consumers[edge.node].emplace_back(i, edge.port);
   }
   for (std::size_t i = n; i-- > 0;) {
-    if (plans[i].verdict != Verdict::hit || dag.nodes[i].given) continue;
+    if (plans[i].verdict != Verdict::hit || dag.nodes[i].kind.given() != nullptr) continue;
     for (const auto& [consumer, port] : consumers[i]) {
       if (plans[consumer].verdict != Verdict::run) continue;
       const auto output = std::find_if(entries[i]->outputs.begin(), entries[i]->outputs.end(),

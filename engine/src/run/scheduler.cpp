@@ -42,8 +42,8 @@ void Runner::Impl::resolve(std::size_t i) {
   State& state = *states_[i];
   if (stopping()) return settle(i, NodeStatus::cancelled, "the run was cancelled");
   if (stop_starting_) return;  // stays pending, becomes skipped
-  if (node.given) {
-    result_.nodes[i].outputs = {output_entry(node.decl->outputs[0].name, *node.given->artifact)};
+  if (const Given* given = node.kind.given()) {
+    result_.nodes[i].outputs = {output_entry(given->outputs[0].name, *given->artifact)};
     return settle(i, NodeStatus::hit, "given");
   }
 
@@ -119,7 +119,7 @@ std::optional<ActionEntry> Runner::Impl::known_entry(std::size_t i) {
     const std::lock_guard lock(mutex_);
     if (const auto found = replaced_.find(key); found != replaced_.end()) return found->second;
   }
-  return find_entry(*store_, *dag_.nodes[i].decl, key);
+  return find_entry(*store_, dag_.nodes[i].kind, key);
 }
 
 ActionKey Runner::Impl::make_key(const DagNode& node) {
@@ -179,8 +179,7 @@ std::uint64_t Runner::Impl::memory_estimate(std::size_t i) {
       bytes += entry->bytes;
       if (!is_at_hand(edge, *entry) && seen.insert(edge.node).second) left.push_back(edge.node);
     }
-    const double scaled = node.decl->memory_per_input_byte * static_cast<double>(bytes);
-    most = std::max(most, node.decl->memory_fixed + static_cast<std::uint64_t>(scaled));
+    most = std::max(most, node.kind.memory().for_inputs_of(bytes));
   }
   return most;
 }

@@ -122,8 +122,8 @@ class Writer {
 
   void node(const DagNode& node, const std::string& id, std::string_view verdict) {
     const std::string indent(2 * (depth_ + 1), ' ');
-    if (!node.loop) return line(indent, id + " [label=" + table(node, verdict) + "];");
-    const Loop& loop = *node.loop;
+    if (node.kind.loop() == nullptr) return line(indent, id + " [label=" + table(node, verdict) + "];");
+    const Loop& loop = *node.kind.loop();
     line(indent, "subgraph \"cluster_" + std::to_string(clusters_++) + "\" {");
     line(indent + "  ", "label=" + dot_string("loop until " + loop.until) + "; style=\"rounded,dashed\";");
     line(indent + "  ", id + " [label=" + table(node, verdict) + "];");
@@ -155,8 +155,8 @@ class Writer {
   }
 
   static std::string table(const DagNode& node, std::string_view verdict) {
-    std::string middle = "<B>" + html(last_name(node.path)) + "</B><BR/>" + html(node.decl->id);
-    for (const ParamDecl& param : node.decl->params) {
+    std::string middle = "<B>" + html(last_name(node.path)) + "</B><BR/>" + html(node.kind.type());
+    for (const ParamDecl& param : node.kind.params()) {
       const Json& value = node.params.at(param.name);
       if (!param.required && value == param.default_value) continue;
       middle += "<BR/><I>" + html(param.name) + " = " + html(shortened(plain_text(value))) + "</I>";
@@ -167,8 +167,8 @@ class Writer {
                         : verdict == "MAYBE" ? "khaki"
                                              : "white";
     return std::string("<<TABLE BORDER=\"1\" CELLBORDER=\"0\" CELLSPACING=\"0\" BGCOLOR=\"") + color +
-           "\"><TR>" + ports("in_", node.decl->inputs) + "<TD>" + middle + "</TD>" +
-           ports("out_", node.decl->outputs) + "</TR></TABLE>>";
+           "\"><TR>" + ports("in_", node.kind.inputs()) + "<TD>" + middle + "</TD>" +
+           ports("out_", node.kind.outputs()) + "</TR></TABLE>>";
   }
 
   std::string text_;

@@ -45,11 +45,11 @@ class Collector {
 
   void add(const Dag& dag, const std::string& graph, const std::vector<Override>& overrides) {
     for (const DagNode& node : dag.nodes) {
-      if (node.loop) {
-        add(node.loop->body, graph, overrides);
+      if (const Loop* loop = node.kind.loop()) {
+        add(loop->body, graph, overrides);
         continue;
       }
-      const auto [place, fresh] = examples_.try_emplace(node.decl->id);
+      const auto [place, fresh] = examples_.try_emplace(node.kind.type());
       if (!fresh) continue;
       const std::string name = node.path.substr(node.path.rfind('/') + 1);
       place->second.graph = fs::path(graph).lexically_relative(folder_).string();

@@ -280,12 +280,13 @@ NodeRecords records_of(const Dag& dag, const std::vector<NodePlan>& plans) {
   for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
     const DagNode& node = dag.nodes[i];
     NodeRecord& record = records[node.path];
-    record.type = node.decl->id;
+    record.type = node.kind.type();
     record.manifest = plans[i].manifest;
     for (const auto& [port, edge] : node.inputs)
       record.inputs[port] = dag.nodes[edge.node].path + "." + edge.port;
-    if (!node.loop) continue;
-    for (const DagNode& inner : node.loop->body.nodes) record.body.push_back(inner.path);
+    if (const Loop* loop = node.kind.loop()) {
+      for (const DagNode& inner : loop->body.nodes) record.body.push_back(inner.path);
+    }
   }
   return records;
 }

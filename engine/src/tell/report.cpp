@@ -68,8 +68,8 @@ std::string_view to_string(ExitCode status) {
 }
 
 Json node_report(const DagNode& node, const NodeResult& r) {
-  Json json = {{"type", node.decl->id}, {"status", to_string(r.status)}, {"reason", r.reason},
-               {"seconds", r.seconds},  {"cpu_seconds", r.cpu_seconds},  {"cost_seconds", r.cost_seconds}};
+  Json json = {{"type", node.kind.type()}, {"status", to_string(r.status)}, {"reason", r.reason},
+               {"seconds", r.seconds},     {"cpu_seconds", r.cpu_seconds},  {"cost_seconds", r.cost_seconds}};
   if (r.iterations) json["iterations"] = *r.iterations;
   if (!r.deterministic) json["deterministic"] = false;
   json["params"] = Json::object();
@@ -101,9 +101,10 @@ Json run_report(const std::string& id, const Dag& dag, const RunResult& result) 
     if (!node.inputs.empty()) json["inputs"] = Json::object();
     for (const auto& [port, edge] : node.inputs)
       json["inputs"][port] = dag.nodes[edge.node].path + "." + edge.port;
-    if (node.loop) json["body"] = Json::array();
-    for (std::size_t k = 0; node.loop && k < node.loop->body.nodes.size(); ++k)
-      json["body"].push_back(node.loop->body.nodes[k].path);
+    if (const Loop* loop = node.kind.loop()) {
+      json["body"] = Json::array();
+      for (const DagNode& inner : loop->body.nodes) json["body"].push_back(inner.path);
+    }
     members.emplace_back(node.path, std::move(json));
   }
   report["nodes"] = std::move(nodes);

@@ -1,7 +1,6 @@
 #include "ballflow/schema.hpp"
 
 #include "base/quote.hpp"
-#include "document/expand.hpp"
 #include "plugin/param_value.hpp"
 
 namespace ballflow {
@@ -147,8 +146,8 @@ Json any_node(const Registry& registry, Json& definitions) {
          {{"type", "object"},
           {"description", "values for the parameters of the body"},
           {"additionalProperties", {{"type", {"number", "boolean", "string"}}}}}}}}};
-  for (const ParamDecl& setting : loop_settings())
-    definitions["loop"]["properties"][setting.name] = param_schema(setting);
+  for (const ParamDecl& param : loop_params())
+    definitions["loop"]["properties"][param.name] = param_schema(param);
   rules.push_back({{"if", {{"required", {"loop"}}}}, {"then", {{"$ref", "#/definitions/loop"}}}});
   Json properties = Json::object();
   if (!types.empty()) properties["type"] = {{"description", "node type"}, {"oneOf", std::move(types)}};

@@ -124,7 +124,7 @@ std::vector<std::string> print(const Model& model) {
 std::string meaning(const Dag& dag, std::size_t skip = 0) {
   std::string text;
   for (const DagNode& node : dag.nodes) {
-    text += node.path.substr(skip) + " " + node.decl->id + "(";
+    text += node.path.substr(skip) + " " + node.kind.type() + "(";
     for (const auto& [name, value] : node.params) text += name + "=" + value.dump() + ",";
     text += ") <-";
     for (const auto& [port, edge] : node.inputs)
@@ -141,7 +141,7 @@ std::string print(const Dag& dag) {
   Json graph = {{"nodes", Json::object()}};
   for (const DagNode& node : dag.nodes) {
     Json& json = graph["nodes"][node.path];
-    json["type"] = node.decl->id;
+    json["type"] = node.kind.type();
     for (const auto& [name, value] : node.params) json["params"][name] = value;
     for (const auto& [port, edge] : node.inputs)
       json["inputs"][port] = dag.nodes[edge.node].path + "." + edge.port;
@@ -160,7 +160,7 @@ RC_GTEST_PROP(graph_property, a_dag_says_what_the_graph_says, ()) {
   for (const ModelNode& node : model) {
     const DagNode* found = dag.find(node.name);
     RC_ASSERT(found != nullptr);
-    RC_ASSERT(found->decl == node.decl);
+    RC_ASSERT(found->kind.declared() == node.decl);
     RC_ASSERT(found->inputs.size() == node.inputs.size());
     for (const auto& [port, source] : node.inputs) {
       RC_ASSERT(dag.nodes[found->inputs.at(port).node].path == model[source.first].name);

@@ -89,7 +89,7 @@ Dag node_dag(const Registry& registry, const ExecNodeArguments& arguments,
   try {
     Dag dag = parse_graph(graph_text(registry, arguments, inputs), nowhere, registry, overrides, {}, inputs);
     const std::size_t node = dag.nodes.size() - 1;  // behind its inputs
-    for (const PortDecl& port : dag.nodes[node].decl->outputs)
+    for (const PortDecl& port : dag.nodes[node].kind.outputs())
       dag.outputs.push_back({port.name, port.doc, {node, port.name}});
     return dag;
   } catch (const GraphError& error) {
@@ -123,7 +123,7 @@ void print_outputs(const Dag& dag, const RunResult& result) {
   std::vector<std::vector<std::string>> rows;
   for (const OutputEntry& output : node.outputs)
     rows.push_back({output.port, describe(output), output.digest.hex()});
-  std::printf("%s %s\n", dag.nodes.back().decl->id.c_str(),
+  std::printf("%s %s\n", dag.nodes.back().kind.type().c_str(),
               node.status == NodeStatus::hit ? "HIT" : ("RUN " + duration(node.seconds)).c_str());
   print_table(rows);
 }
@@ -143,8 +143,8 @@ int exec_node(const Common& common, const ExecNodeArguments& arguments) {
   std::map<std::string, std::string> files;
   for (const std::string& output : arguments.outputs) {
     auto [port, file] = split_setting("--output", output, "balls=balls.ply");
-    if (node.decl->output(port) == nullptr)
-      throw Error(ExitCode::usage, "--output " + output + ": " + node.decl->id + " has no output " + port);
+    if (node.kind.output(port) == nullptr)
+      throw Error(ExitCode::usage, "--output " + output + ": " + node.kind.type() + " has no output " + port);
     files[port] = std::move(file);
   }
   const auto store = common.store();

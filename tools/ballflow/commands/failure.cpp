@@ -29,7 +29,7 @@ std::string surroundings(const FailedRun& run, const FailedCall& call) {
   } else if (!run.common.cache.empty() || std::getenv("BALLFLOW_CACHE") != nullptr) {
     options += " --cache " + shell_word(run.store.root());
   }
-  if (run.seed != 0 && call.node->decl->uses_seed) options += " --seed " + std::to_string(run.seed);
+  if (run.seed != 0 && call.node->kind.uses_seed()) options += " --seed " + std::to_string(run.seed);
   return options;
 }
 
@@ -65,15 +65,17 @@ std::string inner_overrides(const FailedRun& run, const DagNode& loop) {
 
 std::string exec_node_line(const FailedRun& run, const FailedCall& call) {
   const DagNode& node = *call.node;
-  std::string line = shell_word(run.common.program) + plugins(run.registry) + " exec-node " + node.decl->id;
-  if (node.loop) line += " --body " + shell_word(node.loop->body.file);
+  std::string line =
+      shell_word(run.common.program) + plugins(run.registry) + " exec-node " + node.kind.type();
+  const Loop* const loop = node.kind.loop();
+  if (loop != nullptr) line += " --body " + shell_word(loop->body.file);
   line += surroundings(run, call);
-  for (const ParamDecl& param : node.decl->params) {
+  for (const ParamDecl& param : node.kind.params()) {
     const Json& value = node.params.at(param.name);
     if (param.required || value != param.default_value) line += set(param.name, value);
   }
-  if (node.loop) {
-    for (const auto& [name, value] : node.loop->body.params) line += set(name, value);
+  if (loop != nullptr) {
+    for (const auto& [name, value] : loop->body.params) line += set(name, value);
     line += inner_overrides(run, node);
   }
   for (const auto& [port, entry] : call.inputs) line += " --input " + port + "=" + entry.digest.hex();
@@ -87,10 +89,10 @@ std::string failure_text(const FailedRun& run, const RunResult& result, std::siz
   const NodeResult& failed = result.nodes[i];
   const FailedCall call = call_of(run.dag, result, i);
   std::string text =
-      "node " + node.path + " (" + node.decl->id + ") failed: " + printable(failed.cause) + "\n";
+      "node " + node.path + " (" + node.kind.type() + ") failed: " + printable(failed.cause) + "\n";
   if (!failed.hint.empty()) text += "  what to do: " + printable(failed.hint) + "\n";
   const bool inside = call.node != &node;
-  if (inside) text += "  in it: " + call.node->path + " (" + call.node->decl->id + ")\n";
+  if (inside) text += "  in it: " + call.node->path + " (" + call.node->kind.type() + ")\n";
   for (const auto& [name, value] : call.node->params)
     text += "  param " + name + " = " + printable(plain(value)) + "\n";
   std::string missing;

@@ -127,7 +127,7 @@ void check_formats(const Dag& dag, const std::map<std::string, std::string>& for
       throw Error(ExitCode::usage, option + "the graph has no output \"" + name + "\"",
                   near.empty() ? "" : "did you mean \"" + near + "\"?");
     }
-    const std::string& type = dag.nodes[output->from.node].decl->output(output->from.port)->type;
+    const std::string& type = dag.nodes[output->from.node].kind.output(output->from.port)->type;
     const std::vector<std::string> known = export_formats(type);
     if (std::find(known.begin(), known.end(), format) != known.end()) continue;
     std::string all;
@@ -293,7 +293,7 @@ int run(const Common& common, const RunArguments& arguments) {
                  "\nwarning: node %s (%s) is NOT DETERMINISTIC: it gave another result than before for equal "
                  "inputs and parameters\n  its entry was replaced and what depends on it computed anew; find "
                  "out what differs with --check-determinism\n",
-                 dag.nodes[i].path.c_str(), dag.nodes[i].decl->id.c_str());
+                 dag.nodes[i].path.c_str(), dag.nodes[i].kind.type().c_str());
   }
   if (result.status == ExitCode::cancelled) {
     std::fprintf(stderr,

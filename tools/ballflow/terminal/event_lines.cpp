@@ -24,7 +24,7 @@ class Lines final : public EventSink {
         line["for"] = event.text;
         break;
       case Event::Kind::node_started:
-        line["type"] = dag_.nodes[event.node].decl->id;
+        line["type"] = dag_.nodes[event.node].kind.type();
         line["memory"] = event.memory;
         break;
       case Event::Kind::node_progress:

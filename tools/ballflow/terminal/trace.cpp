@@ -118,7 +118,7 @@ class ChromeTrace final : public Trace {
     const auto found = running_.find(event.node);
     if (found == running_.end()) return;
     const DagNode& node = dag_.nodes[event.node];
-    Json args = {{"type", node.decl->id}, {"status", status}};
+    Json args = {{"type", node.kind.type()}, {"status", status}};
     if (result != nullptr) {
       args["why"] = result->reason;
       args["cpu_seconds"] = result->cpu_seconds;

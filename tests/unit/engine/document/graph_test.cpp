@@ -66,7 +66,7 @@ TEST(graph, becomes_a_dag_in_topological_order_with_defaults_filled_in) {
   EXPECT_EQ(dag.params.at("epsilon"), 0.3);
   EXPECT_TRUE(dag.warnings.empty());
   ASSERT_NE(dag.find("grow"), nullptr);
-  EXPECT_EQ(dag.find("grow")->decl->id, "Grow");
+  EXPECT_EQ(dag.find("grow")->kind.type(), "Grow");
   EXPECT_EQ(dag.find("nothing"), nullptr);
 }
 

@@ -68,19 +68,19 @@ TEST_F(graph_loop, is_one_node_with_the_body_inside) {
   EXPECT_EQ(node.path, "l");
   EXPECT_EQ(dag.outputs[0].from.node, 3u);
   EXPECT_EQ(node.inputs.at("cover").port, "cover");
-  ASSERT_NE(node.loop, nullptr);
+  ASSERT_NE(node.kind.loop(), nullptr);
   EXPECT_EQ(node.params.at("max_iterations"), 10'000);
   EXPECT_EQ(node.params.at("at_limit"), "error");
-  ASSERT_EQ(node.loop->body.nodes.size(), 1u);
-  const DagNode& trim = node.loop->body.nodes[0];
+  ASSERT_EQ(node.kind.loop()->body.nodes.size(), 1u);
+  const DagNode& trim = node.kind.loop()->body.nodes[0];
   EXPECT_EQ(trim.path, "l/t");
   EXPECT_EQ(trim.params.at("keep"), 0.25);
   EXPECT_EQ(trim.inputs.at("cover").node, loop_input);
   EXPECT_EQ(trim.inputs.at("cover").port, "cover");
   EXPECT_EQ(trim.place.file, folder.file("body.json"));
-  ASSERT_EQ(node.loop->body.outputs.size(), 1u);
-  EXPECT_EQ(node.loop->body.outputs[0].from.node, 0u);
-  const auto& conditions = node.loop->conditions;
+  ASSERT_EQ(node.kind.loop()->body.outputs.size(), 1u);
+  EXPECT_EQ(node.kind.loop()->body.outputs[0].from.node, 0u);
+  const auto& conditions = node.kind.loop()->conditions;
   ASSERT_EQ(conditions.size(), 2u);
   ASSERT_EQ(conditions[1].size(), 2u);
   EXPECT_EQ(conditions[0][0].op, Loop::Comparison::Op::equal);
@@ -101,9 +101,9 @@ TEST_F(graph_loop, bodies_may_have_subgraphs_and_a_graph_with_a_loop_may_be_one)
   const Dag dag = parse(with_loop(R"("l":{"graph":"strategy.json","inputs":{"cover":"m.cover"}})"));
   const DagNode* node = dag.find("l/r");
   ASSERT_NE(node, nullptr);
-  ASSERT_EQ(node->loop->body.nodes.size(), 1u);
-  EXPECT_EQ(node->loop->body.nodes[0].path, "l/r/s/t");
-  EXPECT_EQ(node->loop->body.nodes[0].inputs.at("cover").node, loop_input);
+  ASSERT_EQ(node->kind.loop()->body.nodes.size(), 1u);
+  EXPECT_EQ(node->kind.loop()->body.nodes[0].path, "l/r/s/t");
+  EXPECT_EQ(node->kind.loop()->body.nodes[0].inputs.at("cover").node, loop_input);
 }
 
 TEST_F(graph_loop, settings_belong_to_loops_and_until_is_needed) {
@@ -231,7 +231,7 @@ TEST_F(graph_loop, bodies_without_state_or_with_parameters_named_like_settings) 
   EXPECT_EQ(
       errors(with_loop(R"("l":{"loop":"body.json","inputs":{"cover":"m.cover"},"until":"cover.gap < 1"})")),
       "body.json:1:12: the body of loop \"l\" cannot have a parameter \"until\" (at /params/until)\n"
-      "  every loop has a setting of that name; choose another one\n");
+      "  every loop has a parameter of that name; choose another one\n");
 }
 
 TEST_F(graph_loop, errors_in_the_body_are_all_reported) {

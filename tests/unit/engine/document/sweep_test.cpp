@@ -119,7 +119,7 @@ TEST(sweep, every_variant_is_the_graph_with_its_values_set) {
     ASSERT_EQ(alone.nodes.size(), variant.nodes.size());
     for (std::size_t i = 0; i < alone.nodes.size(); ++i) {
       const DagNode& node = dag.nodes[variant.nodes[i]];
-      EXPECT_EQ(node.decl, alone.nodes[i].decl);
+      EXPECT_EQ(node.kind.declared(), alone.nodes[i].kind.declared());
       EXPECT_EQ(node.params, alone.nodes[i].params);
       ASSERT_EQ(node.inputs.size(), alone.nodes[i].inputs.size());
       for (const auto& [port, edge] : node.inputs) {

@@ -329,14 +329,12 @@ TEST_F(LoopTest, everything_that_may_change_the_result_changes_the_key_and_names
   EXPECT_NE(wired("n", "one"), wired("n", "n"));
 
   Dag dag = graph(step, "n.first == 7");
-  Loop changed = *dag.find("loop")->loop;
-  NodeDeclaration decl = *changed.body.nodes[0].decl;
+  Loop changed = *dag.find("loop")->kind.loop();
+  NodeDeclaration decl = *changed.body.nodes[0].kind.declared();
   decl.version = 2;
-  changed.body.nodes[0].decl = &decl;
+  changed.body.nodes[0].kind = decl;
   for (DagNode& node : dag.nodes) {
-    if (node.path != "loop") continue;
-    node.loop = std::make_shared<const Loop>(changed);
-    node.decl = &node.loop->decl;
+    if (node.path == "loop") node.kind = std::make_shared<const Loop>(changed);
   }
   expect_change(dag, "body.nodes.0:Step.version 1 -> 2");
 }

@@ -46,10 +46,8 @@ struct RunTest : testing::Test {
   std::size_t node(Dag& dag, const std::string& path, const std::string& type,
                    const std::map<std::string, EdgeRef>& inputs = {},
                    const std::map<std::string, Json>& params = {}) {
-    DagNode n;
-    n.path = path;
-    n.decl = registry.node(type);
-    for (const ParamDecl& param : n.decl->params) n.params[param.name] = param.default_value;
+    DagNode n{path, *registry.node(type)};
+    for (const ParamDecl& param : n.kind.params()) n.params[param.name] = param.default_value;
     for (const auto& [name, value] : params) n.params[name] = value;
     n.inputs = inputs;
     dag.nodes.push_back(std::move(n));

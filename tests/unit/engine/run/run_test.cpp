@@ -431,10 +431,10 @@ TEST_F(KeyTest, every_field_of_the_manifest_changes_the_key_and_is_named) {
   Dag dag;
   node(dag, "a", "Source");
   OutputEntry input{"a", "Numbers", 1, sha256("x"), 1, {}, "{}"};
-  NodeDeclaration decl = *dag.nodes[0].decl;
+  NodeDeclaration decl = *dag.nodes[0].kind.declared();
   decl.libraries["CGAL"] = "5.5.1";
   decl.uses_seed = true;
-  dag.nodes[0].decl = &decl;
+  dag.nodes[0].kind = decl;
   const ActionKey base = action_key(dag.nodes[0], {{"a", input}}, 0, *store());
   const auto expect_change = [&](const DagNode& n, const OutputEntry& in, std::uint64_t seed,
                                  const std::string& named) {
@@ -453,7 +453,7 @@ TEST_F(KeyTest, every_field_of_the_manifest_changes_the_key_and_is_named) {
   NodeDeclaration other = decl;
   other.version = 2;
   changed = dag.nodes[0];
-  changed.decl = &other;
+  changed.kind = other;
   expect_change(changed, input, 0, "Source version 1 -> 2");
   other = decl;
   other.libraries["CGAL"] = "5.6";
@@ -496,10 +496,10 @@ TEST_F(KeyTest, the_key_is_the_hash_of_its_manifest) {
   std::map<std::string, OutputEntry> inputs;
   inputs["b"] = {"sum", "Numbers", 3, sha256("b"), 10, {}, "{}"};
   inputs["a"] = {"sum", "Numbers", 1, sha256("a"), 10, {}, "{}"};
-  NodeDeclaration strange = *dag.nodes[3].decl;
+  NodeDeclaration strange = *dag.nodes[3].kind.declared();
   strange.uses_seed = true;
   strange.libraries = {{"CGAL", "5.5 \"odd\" caf\xc3\xa9"}, {"A", "1"}};
-  dag.nodes[3].decl = &strange;
+  dag.nodes[3].kind = strange;
   for (const DagNode& n : dag.nodes) {
     const ActionKey made = action_key(n, inputs, 1234567890123456789u, *store());
     EXPECT_EQ(made.key, sha256(hashed_bytes(nlohmann::json::parse(made.manifest)))) << made.manifest;
@@ -519,13 +519,13 @@ TEST_F(KeyTest, minus_zero_is_zero_and_whole_numbers_equal_themselves) {
 TEST_F(KeyTest, a_file_enters_by_content_and_format_not_by_path) {
   Dag dag;
   node(dag, "a", "Source");
-  NodeDeclaration decl = *dag.nodes[0].decl;
+  NodeDeclaration decl = *dag.nodes[0].kind.declared();
   ParamDecl file;
   file.name = "file";
   file.kind = ParamKind::file;
   file.schemes = {"shape:"};
   decl.params.push_back(file);
-  dag.nodes[0].decl = &decl;
+  dag.nodes[0].kind = decl;
   const auto with = [&](const std::string& path) {
     DagNode n = dag.nodes[0];
     n.params["file"] = path;

@@ -23,9 +23,7 @@ namespace fs = std::filesystem;
 struct HistoryTest : testing::Test {
   HistoryTest() {
     decl.id = "Probe";
-    DagNode& node = dag.nodes.emplace_back();
-    node.path = "part/probe";
-    node.decl = &decl;
+    dag.nodes.push_back({"part/probe", decl});
     result.nodes.resize(1);
     result.seconds = 1.5;
     result.nodes[0].status = NodeStatus::run;

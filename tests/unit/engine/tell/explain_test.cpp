@@ -225,8 +225,7 @@ TEST_F(KeyMutationTest, every_field_of_every_toy_manifest_counts_and_is_named) {
     NodeDeclaration decl = registered;
     decl.libraries = {{"CGAL", "5.5"}, {"lp_solve", "5.5.2"}};
     decl.uses_seed = true;
-    DagNode node;
-    node.decl = &decl;
+    DagNode node{id, decl};
     for (const ParamDecl& param : decl.params)
       node.params[param.name] =
           param.kind == ParamKind::file ? Json(folder.file("data.txt")) : param.default_value;

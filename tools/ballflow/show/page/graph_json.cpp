@@ -142,7 +142,7 @@ Json graph_json(const Dag& dag, const std::vector<NodePlan>& plans) {
   for (const auto& [name, value] : dag.params) graph["params"][name] = value;
   for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
     const DagNode& node = dag.nodes[i];
-    Json json = {{"path", node.path}, {"name", base_path(node.path)}, {"type", node.decl->id}};
+    Json json = {{"path", node.path}, {"name", base_path(node.path)}, {"type", node.kind.type()}};
     if (i < plans.size()) {
       json["status"] = to_string(plans[i].verdict);
       json["reason"] = plans[i].reason;
@@ -154,10 +154,10 @@ Json graph_json(const Dag& dag, const std::vector<NodePlan>& plans) {
     for (const auto& [port, edge] : node.inputs)
       json["inputs"][port] = dag.nodes[edge.node].path + "." + edge.port;
     json["outputs"] = Json::object();
-    for (const PortDecl& port : node.decl->outputs) json["outputs"][port.name] = {{"type", port.type}};
-    if (node.loop) {
+    for (const PortDecl& port : node.kind.outputs()) json["outputs"][port.name] = {{"type", port.type}};
+    if (const Loop* loop = node.kind.loop()) {
       json["body"] = Json::array();
-      for (const DagNode& inner : node.loop->body.nodes) json["body"].push_back(inner.path);
+      for (const DagNode& inner : loop->body.nodes) json["body"].push_back(inner.path);
     }
     graph["nodes"].push_back(std::move(json));
   }
@@ -168,7 +168,7 @@ Json variants_json(const Dag& dag, std::size_t number) {
   std::map<std::string, Json> outputs;  // by variant
   for (const DagOutput& output : dag.outputs) {
     const DagNode& node = dag.nodes[output.from.node];
-    const PortDecl* port = node.decl->output(output.from.port);
+    const PortDecl* port = node.kind.output(output.from.port);
     const std::size_t slash = output.name.rfind('/');
     const std::string variant = slash == std::string::npos ? "" : output.name.substr(0, slash);
     outputs[variant].push_back({{"name", output.base_name()},

@@ -75,7 +75,7 @@ void Page::add_run(const RunRecord& run) {
 }
 
 void Page::add_graph(const Dag& dag, const std::vector<NodePlan>& plans) {
-  for (const DagNode& node : dag.nodes) document(node.decl->id);
+  for (const DagNode& node : dag.nodes) document(node.kind.type());
   for (const Json& variant : variants_json(dag, graphs_.size())) variants_.push_back(variant);
   graphs_.push_back(graph_json(dag, plans));
 }
