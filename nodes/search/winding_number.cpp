@@ -101,6 +101,7 @@ void WindingNumber::turn_outwards(const TriangleMesh& mesh) {
   for (std::size_t t = 0; t < sign_.size(); ++t) sign_[t] = sign[at(chain_.component[t])];
   for (std::size_t c = 0; c < size.size(); ++c) {
     if (sign[c] < 0) turned_ += static_cast<std::int64_t>(size[c]);
+    enclosed_volume_ += sign[c] * volume[c] / 6;
   }
 }
 

@@ -35,6 +35,9 @@ class WindingNumber {
   Value around(Vec3 point) const;
 
   const SurfaceChain& chain() const { return chain_; }
+  /// Of a closed mesh: the integral of its winding number, in cubed model units. What it winds around twice
+  /// counts twice, a cavity not at all. 0 for open meshes.
+  double enclosed_volume() const { return enclosed_volume_; }
   /// Triangles turned over, by the repair of the chain and by turning components outwards.
   std::int64_t turned() const { return turned_; }
 
@@ -43,6 +46,7 @@ class WindingNumber {
   SurfaceChain chain_;
   std::vector<std::int8_t> sign_;  // per triangle of the chain, -1 where its component is turned over
   std::int64_t turned_ = 0;
+  double enclosed_volume_ = 0;
   SignedCrossings crossings_;  // triangles of the chain, then the caps
   SolidAngles caps_;
 };

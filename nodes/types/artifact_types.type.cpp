@@ -313,7 +313,7 @@ void TypeOf<geometry::CoverCheck>::declare(TypeDecl<geometry::CoverCheck>& d) {
 
 void TypeOf<geometry::Comparison>::declare(TypeDecl<geometry::Comparison>& d) {
   using T = geometry::Comparison;
-  d.id("Comparison", 2)
+  d.id("Comparison", 3)
       .doc("How far the boundary of a union of balls is from a surface; lengths in model units.");
   d.scalar("compared_with", &T::compared_with).doc("the surface: 1 points, 2 an open mesh, 3 a closed mesh");
   d.scalar("surface_samples", &T::surface_samples).doc("number of samples of the surface");
@@ -326,10 +326,8 @@ void TypeOf<geometry::Comparison>::declare(TypeDecl<geometry::Comparison>& d) {
   d.scalar("uncovered", &T::uncovered).doc("largest distance of a sample of the surface from the union");
   d.scalar("protrusion", &T::protrusion).doc("largest radius minus distance of the centre from the surface");
   d.scalar("union_volume", &T::union_volume).doc("volume of the union");
-  d.scalar("union_volume_at_least", &T::union_volume_at_least).doc("lower bound of it");
-  d.scalar("union_volume_at_most", &T::union_volume_at_most).doc("upper bound of it");
   d.scalar("surface_volume", &T::surface_volume).doc("volume that the surface encloses");
-  d.scalar("surface_encloses", &T::surface_encloses).doc("1 when the surface is closed and oriented");
+  d.scalar("surface_encloses", &T::surface_encloses).doc("1 when the surface is a closed mesh");
   d.summary("compared_with", "the surface: a closed mesh, an open mesh, or a cloud of points");
   d.summary("hausdorff", "the larger one of the two one-sided distances, from samples");
   d.summary("hausdorff_at_most", "upper bound of it");

@@ -43,9 +43,11 @@ struct Comparison {
   // The largest r - d(c, M) of a ball, at least 0: no ball with its centre c inside reaches farther beyond M.
   double protrusion = 0;
 
-  double union_volume = 0, union_volume_at_least = 0, union_volume_at_most = 0;
-  double surface_volume = 0;          // enclosed by M
-  std::uint8_t surface_encloses = 0;  // 1 when M is closed and consistently oriented, else its volume is 0
+  double union_volume = 0;  // by formulas: right but for rounding, whatever the spacing
+  // Enclosed by M: the integral of its winding number, with its components turned outwards but for cavities,
+  // as LabelPoles turns them. What M winds around twice counts twice.
+  double surface_volume = 0;
+  std::uint8_t surface_encloses = 0;  // 1 for a closed mesh, else surface_volume is 0
 
   bool with_closed_mesh() const {
     return compared_with == static_cast<std::uint8_t>(ComparedWith::closed_mesh);
