@@ -111,7 +111,7 @@ def findings(sees, headers, below):
 
 
 def picture(sees):
-    lines = ["```mermaid", "flowchart BT"]
+    lines = ["```mermaid", "flowchart TB"]
     for area in AREAS:
         lines.append(f"  subgraph {area}")
         for floor in sees:
@@ -130,6 +130,8 @@ def main():
     sees, headers = read_table()
     found = list(findings(sees, headers, closure(sees)))
     text = PICTURE.read_text()
+    if BEGIN not in text:
+        sys.exit(f"ARCHITECTURE.md: the line {BEGIN} is missing, after which the picture is drawn")
     head, _, rest = text.partition(BEGIN)
     old, _, tail = rest.partition(END)
     drawn = f"\n{picture(sees)}\n"

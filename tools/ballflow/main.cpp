@@ -13,46 +13,19 @@ int main(int argc, char** argv) {
   // nodes.
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
   mallopt(M_TRIM_THRESHOLD, 64 << 20);
-  CLI::App app{
+  cli::Common common;
+  if (argc > 0) common.program = argv[0];
+  cli::Action action;
+  const cli::Parsed parsed = cli::parse_command_line(
+      argc, argv,
       "ballflow runs pipelines of typed nodes from JSON graph files and caches every intermediate result.\n"
       "Its nodes compute with unions of balls: poles, discrete medial axis, set-cover pruning,\n"
       "alpha-shapes and medial axes.\n\n"
       "  ballflow run graphs/medial_axis.json --set input=scan.ply --out out/\n",
-      "ballflow"};
-  app.require_subcommand(1);
-  app.footer(
       "Exit codes: 0 ok, 2 wrong usage or graph, 3 a node failed, 4 cancelled, 5 store or files, 6 plugin.\n"
-      "The cache is $BALLFLOW_CACHE, else ~/.cache/ballflow; it may be deleted at any time.");
-  cli::Common common;
-  if (argc > 0) common.program = argv[0];
-  app.add_option("--plugin", common.plugins,
-                 "a node library, or a folder of them, to load besides the built-in ones")
-      ->type_name("PATH");
-  cli::Action action;
-  cli::add_run(app, common, action);
-  cli::add_sweep(app, common, action);
-  cli::add_compare(app, common, action);
-  cli::add_plan(app, common, action);
-  cli::add_runs(app, common, action);
-  cli::add_check(app, common, action);
-  cli::add_nodes(app, common, action);
-  cli::add_cache(app, common, action);
-  cli::add_report(app, common, action);
-  cli::add_export(app, common, action);
-  cli::add_graph(app, common, action);
-  cli::add_view(app, common, action);
-  cli::add_plugins(app, common, action);
-  cli::add_new_node(app, common, action);
-  cli::add_explain(app, common, action);
-  cli::add_render(app, common, action);
-  cli::add_exec_node(app, common, action);
-  cli::add_version(app, common, action);
-
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage);
-  }
+      "The cache is $BALLFLOW_CACHE, else ~/.cache/ballflow; it may be deleted at any time.",
+      [&](const cli::Command& program) { cli::add_commands(program, common, action); });
+  if (parsed.done) return parsed.exit_code;
   try {
     const int status = action();
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;

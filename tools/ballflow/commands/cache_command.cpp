@@ -208,18 +208,18 @@ int change_pin(const Common& common, const std::string& digits, bool on) {
 
 }  // namespace
 
-void add_cache(CLI::App& app, Common& common, Action& action) {
+void add_cache(const Command& app, Common& common, Action& action) {
   struct Arguments {
     std::string size, digest;
     bool dry_run = false, full = false;
   };
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("cache", "look at the cache, check it, make it smaller");
-  command->require_subcommand(1);
+  const Command command = app.subcommand("cache", "look at the cache, check it, make it smaller");
+  command.requires_subcommand();
   const auto add = [&](const char* name, const char* what, std::function<int()> act) {
-    CLI::App* sub = command->add_subcommand(name, what);
-    sub->add_option("--cache", common.cache, "cache folder")->type_name("DIR");
-    sub->callback([&action, act = std::move(act)] { action = act; });
+    const Command sub = command.subcommand(name, what);
+    sub.option("--cache", common.cache, "cache folder").type_name("DIR");
+    sub.callback([&action, act = std::move(act)] { action = act; });
     return sub;
   };
   add("stat", "say where the cache is, what is in it and how large it may get",
@@ -227,31 +227,30 @@ void add_cache(CLI::App& app, Common& common, Action& action) {
   add("ls", "list the artifacts, those that would be collected first on top",
       [&common] { return list_artifacts(common); });
   add("du", "sum up by type of node", [&common] { return show_usage_by_node(common); });
-  CLI::App* gc =
+  const Command gc =
       add("gc", "remove what is worth least until the cache is small enough",
           [&common, arguments] { return collect_garbage(common, arguments->size, arguments->dry_run); });
-  gc->add_flag("--dry-run", arguments->dry_run, "only say what would be removed");
-  gc->add_option("--size", arguments->size,
-                 "size to reach, e.g. 5G (default: the limit that \"cache stat\" shows)")
-      ->type_name("SIZE");
-  CLI::App* check =
+  gc.flag("--dry-run", arguments->dry_run, "only say what would be removed");
+  gc.option("--size", arguments->size,
+            "size to reach, e.g. 5G (default: the limit that \"cache stat\" shows)")
+      .type_name("SIZE");
+  const Command check =
       add("verify", "read everything, move what is damaged to quarantine; exit 5 if there was any",
           [&common, arguments] { return verify_cache(common, arguments->full); });
-  check->add_flag("--full", arguments->full,
-                  "check the SHA-256 of every artifact, not only its fast checksum");
+  check.flag("--full", arguments->full, "check the SHA-256 of every artifact, not only its fast checksum");
   for (const bool on : {true, false}) {
     add(on ? "pin" : "unpin",
         on ? "keep an artifact whatever the size of the cache" : "let go of a pinned artifact",
         [&common, arguments, on] { return change_pin(common, arguments->digest, on); })
-        ->add_option("digest", arguments->digest, "digest of the artifact, or its first digits")
-        ->required();
+        .option("digest", arguments->digest, "digest of the artifact, or its first digits")
+        .required();
   }
 }
 
-void add_version(CLI::App& app, Common& common, Action& action) {
-  CLI::App* command =
-      app.add_subcommand("version", "print the version, the plugin ABI and the node libraries");
-  command->callback([&common, &action] {
+void add_version(const Command& app, Common& common, Action& action) {
+  const Command command =
+      app.subcommand("version", "print the version, the plugin ABI and the node libraries");
+  command.callback([&common, &action] {
     action = [&common] {
       std::printf("ballflow %s, plugin ABI %u\n", BALLFLOW_VERSION, BALLFLOW_ABI_VERSION);
       const auto registry = common.registry();

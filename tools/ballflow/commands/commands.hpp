@@ -1,7 +1,6 @@
 // The commands of the command line. Each adds itself to the parser; what it returns is the exit code.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -13,6 +12,7 @@
 #include "ballflow/registry.hpp"
 #include "ballflow/run.hpp"
 #include "ballflow/store.hpp"
+#include "commands/command_line.hpp"
 
 namespace ballflow::cli {
 
@@ -34,7 +34,7 @@ struct GraphArguments {
   std::string file;
   std::vector<std::string> sets, axes, inputs;
 
-  void add_to(CLI::App& command);
+  void add_to(const Command& command);
   std::vector<Override> overrides() const;  // of --set
   /// Reads and checks the graph, with what was set; prints its warnings.
   Dag load(const Registry& registry) const;
@@ -50,7 +50,7 @@ struct RunSettings {
   bool keep_going = false, strict = false, check_determinism = false;
   std::vector<std::string> until, only, force;
 
-  void add_to(CLI::App& command);
+  void add_to(const Command& command);
   /// Throws Error (code usage) for a name that `dag` does not have and for a size that is none.
   RunOptions options(const Dag& dag) const;
   /// The words of a command line for what decides the results: the seed and the nodes that run.
@@ -60,24 +60,27 @@ struct RunSettings {
 /// Registered commands put what they do here; main runs it after parsing.
 using Action = std::function<int()>;
 
-void add_run(CLI::App& app, Common& common, Action& action);
-void add_sweep(CLI::App& app, Common& common, Action& action);
-void add_compare(CLI::App& app, Common& common, Action& action);
-void add_plan(CLI::App& app, Common& common, Action& action);
-void add_runs(CLI::App& app, Common& common, Action& action);
-void add_check(CLI::App& app, Common& common, Action& action);
-void add_nodes(CLI::App& app, Common& common, Action& action);
-void add_cache(CLI::App& app, Common& common, Action& action);
-void add_report(CLI::App& app, Common& common, Action& action);
-void add_export(CLI::App& app, Common& common, Action& action);
-void add_graph(CLI::App& app, Common& common, Action& action);
-void add_view(CLI::App& app, Common& common, Action& action);
-void add_plugins(CLI::App& app, Common& common, Action& action);
-void add_new_node(CLI::App& app, Common& common, Action& action);
-void add_explain(CLI::App& app, Common& common, Action& action);
-void add_render(CLI::App& app, Common& common, Action& action);
-void add_exec_node(CLI::App& app, Common& common, Action& action);
-void add_version(CLI::App& app, Common& common, Action& action);
+/// All commands, and the options of the program itself.
+void add_commands(const Command& program, Common& common, Action& action);
+
+void add_run(const Command& app, Common& common, Action& action);
+void add_sweep(const Command& app, Common& common, Action& action);
+void add_compare(const Command& app, Common& common, Action& action);
+void add_plan(const Command& app, Common& common, Action& action);
+void add_runs(const Command& app, Common& common, Action& action);
+void add_check(const Command& app, Common& common, Action& action);
+void add_nodes(const Command& app, Common& common, Action& action);
+void add_cache(const Command& app, Common& common, Action& action);
+void add_report(const Command& app, Common& common, Action& action);
+void add_export(const Command& app, Common& common, Action& action);
+void add_graph(const Command& app, Common& common, Action& action);
+void add_view(const Command& app, Common& common, Action& action);
+void add_plugins(const Command& app, Common& common, Action& action);
+void add_new_node(const Command& app, Common& common, Action& action);
+void add_explain(const Command& app, Common& common, Action& action);
+void add_render(const Command& app, Common& common, Action& action);
+void add_exec_node(const Command& app, Common& common, Action& action);
+void add_version(const Command& app, Common& common, Action& action);
 
 /// "NAME=VALUE" of an option that is repeated; throws Error that shows how it is written.
 std::pair<std::string, std::string> split_setting(const std::string& option, const std::string& text,

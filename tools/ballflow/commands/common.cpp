@@ -109,26 +109,24 @@ std::pair<std::string, std::string> split_setting(const std::string& option, con
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
-void GraphArguments::add_to(CLI::App& command) {
-  command.add_option("graph", file, "graph file")->required()->type_name("GRAPH.json");
+void GraphArguments::add_to(const Command& command) {
+  command.option("graph", file, "graph file").required().type_name("GRAPH.json");
   command
-      .add_option(
-          "--set", sets,
-          "set a parameter of the graph (epsilon=0.5) or of one node (prune/greedy.mode=until_covered)")
-      ->type_name("NAME=VALUE")
-      ->allow_extra_args(false);
+      .option("--set", sets,
+              "set a parameter of the graph (epsilon=0.5) or of one node (prune/greedy.mode=until_covered)")
+      .type_name("NAME=VALUE")
+      .one_at_a_time();
   command
-      .add_option(
-          "--axis", axes,
-          "run the graph once for every one of these values (epsilon=0.1,0.3); several axes give every\n"
-          "combination; replaces the axis of that name in the graph's \"sweep\"")
-      ->type_name("NAME=VALUES")
-      ->allow_extra_args(false);
+      .option("--axis", axes,
+              "run the graph once for every one of these values (epsilon=0.1,0.3); several axes give every\n"
+              "combination; replaces the axis of that name in the graph's \"sweep\"")
+      .type_name("NAME=VALUES")
+      .one_at_a_time();
   command
-      .add_option("--inputs", inputs,
-                  "run the graph once for every file that matches ('scans/*.ply'); NAME=PATTERN chooses the\n"
-                  "parameter when the graph has several of kind file")
-      ->type_name("PATTERN...");
+      .option("--inputs", inputs,
+              "run the graph once for every file that matches ('scans/*.ply'); NAME=PATTERN chooses the\n"
+              "parameter when the graph has several of kind file")
+      .type_name("PATTERN...");
 }
 
 namespace {

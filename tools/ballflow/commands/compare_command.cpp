@@ -24,28 +24,28 @@ int show(const Common& common, const CompareArguments& arguments) {
 
 }  // namespace
 
-void add_compare(CLI::App& app, Common& common, Action& action) {
-  CLI::App* command = app.add_subcommand(
+void add_compare(const Command& app, Common& common, Action& action) {
+  const Command command = app.subcommand(
       "compare", "a table of runs, or of the variants of a sweep: parameters, results, seconds");
   const auto arguments = std::make_shared<CompareArguments>();
   command
-      ->add_option(
+      .option(
           "run", arguments->runs,
           "runs: an id or the beginning of one (see \"ballflow runs\"), latest, previous, a report file,\n"
           "or a folder with a report.json; default: latest")
-      ->type_name("RUN...");
+      .type_name("RUN...");
   command
-      ->add_option(
+      .option(
           "--fields", arguments->fields,
           "what of the results: output.field, subgraph.output.field, node.port.field, node.parameter, or\n"
           "all; default: what differs in the summaries of the outputs")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("FIELD,FIELD");
-  command->add_option("--format", arguments->format, "text, csv, md or json")
-      ->check(CLI::IsMember({"text", "csv", "md", "json"}));
-  command->add_option("--cache", common.cache, "cache folder")->type_name("DIR");
-  command->callback(
+      .delimiter(',')
+      .one_at_a_time()
+      .type_name("FIELD,FIELD");
+  command.option("--format", arguments->format, "text, csv, md or json")
+      .one_of({"text", "csv", "md", "json"});
+  command.option("--cache", common.cache, "cache folder").type_name("DIR");
+  command.callback(
       [&common, &action, arguments] { action = [&common, arguments] { return show(common, *arguments); }; });
 }
 

@@ -183,42 +183,41 @@ int exec_node(const Common& common, const ExecNodeArguments& arguments) {
 
 }  // namespace
 
-void add_exec_node(CLI::App& app, Common& common, Action& action) {
-  CLI::App* command = app.add_subcommand(
+void add_exec_node(const Command& app, Common& common, Action& action) {
+  const Command command = app.subcommand(
       "exec-node", "run one node alone, with artifacts as inputs; failing nodes print the command");
   const auto arguments = std::make_shared<ExecNodeArguments>();
-  command->add_option("type", arguments->type, "node type, or \"loop\"")->required()->type_name("TYPE");
-  command->add_option("--body", arguments->body, "graph file of the body of a loop")->type_name("GRAPH.json");
+  command.option("type", arguments->type, "node type, or \"loop\"").required().type_name("TYPE");
+  command.option("--body", arguments->body, "graph file of the body of a loop").type_name("GRAPH.json");
   command
-      ->add_option("--input", arguments->inputs,
-                   "an input: the digest of an artifact in the cache (6 digits or more), or the file of one")
-      ->type_name("PORT=ARTIFACT")
-      ->allow_extra_args(false);
+      .option("--input", arguments->inputs,
+              "an input: the digest of an artifact in the cache (6 digits or more), or the file of one")
+      .type_name("PORT=ARTIFACT")
+      .one_at_a_time();
   command
-      ->add_option("--set", arguments->sets,
-                   "set a parameter of the node; of a loop: a setting, a parameter of its body, or of a node "
-                   "in it (reduce.steps=3)")
-      ->type_name("NAME=VALUE")
-      ->allow_extra_args(false);
+      .option("--set", arguments->sets,
+              "set a parameter of the node; of a loop: a setting, a parameter of its body, or of a node "
+              "in it (reduce.steps=3)")
+      .type_name("NAME=VALUE")
+      .one_at_a_time();
   command
-      ->add_option(
-          "--output", arguments->outputs,
-          "write an output to a file as well; the extension is the format (.safetensors: the artifact)")
-      ->type_name("PORT=FILE")
-      ->allow_extra_args(false);
-  command->add_option("--seed", arguments->seed, "seed of the nodes that use random numbers");
+      .option("--output", arguments->outputs,
+              "write an output to a file as well; the extension is the format (.safetensors: the artifact)")
+      .type_name("PORT=FILE")
+      .one_at_a_time();
+  command.option("--seed", arguments->seed, "seed of the nodes that use random numbers");
   command
-      ->add_option("--threads", arguments->threads,
-                   "number of threads; 0: all cores (the result never depends on it)")
-      ->check(CLI::Range(0u, 4096u));
-  command->add_option("--cache", common.cache, "cache folder")->type_name("DIR");
-  command->add_flag("--no-cache", common.no_cache, "neither read nor write a cache; inputs are files");
-  command->add_flag("--json", arguments->json,
-                    "print a run report (schemas/run_report.schema.json) instead of a table");
-  command->footer(
+      .option("--threads", arguments->threads,
+              "number of threads; 0: all cores (the result never depends on it)")
+      .between(0, 4096);
+  command.option("--cache", common.cache, "cache folder").type_name("DIR");
+  command.flag("--no-cache", common.no_cache, "neither read nor write a cache; inputs are files");
+  command.flag("--json", arguments->json,
+               "print a run report (schemas/run_report.schema.json) instead of a table");
+  command.footer(
       "Keys, cache and checks are those of a graph with this one node. All outputs are stored, large ones "
       "too.");
-  command->callback([&common, &action, arguments] {
+  command.callback([&common, &action, arguments] {
     action = [&common, arguments] { return exec_node(common, *arguments); };
   });
 }

@@ -106,25 +106,24 @@ int explain_node(const Common& common, const ExplainArguments& arguments) {
 
 }  // namespace
 
-void add_explain(CLI::App& app, Common& common, Action& action) {
-  CLI::App* command =
-      app.add_subcommand("explain", "say what makes a node run again, field by field, and what caused it");
+void add_explain(const Command& app, Common& common, Action& action) {
+  const Command command =
+      app.subcommand("explain", "say what makes a node run again, field by field, and what caused it");
   const auto arguments = std::make_shared<ExplainArguments>();
-  command->add_option("node", arguments->node, "path of the node (prune/greedy), also in the body of a loop")
-      ->required()
-      ->type_name("NODE");
-  arguments->graph.add_to(*command);
-  command->get_option("graph")->required(false)->description(
+  command.option("node", arguments->node, "path of the node (prune/greedy), also in the body of a loop")
+      .required()
+      .type_name("NODE");
+  arguments->graph.add_to(command);
+  command.find("graph").required(false).description(
       "graph file: explain what its next run would do; default: the latest run that was recorded");
   command
-      ->add_option(
-          "--against", arguments->against,
-          "the run to compare with: latest, previous, an id from \"ballflow runs\", or a report file "
-          "(default: the run before)")
-      ->type_name("RUN");
-  command->add_option("--seed", arguments->seed, "seed of the nodes that use random numbers");
-  command->add_option("--cache", common.cache, "cache folder")->type_name("DIR");
-  command->callback([&common, &action, arguments] {
+      .option("--against", arguments->against,
+              "the run to compare with: latest, previous, an id from \"ballflow runs\", or a report file "
+              "(default: the run before)")
+      .type_name("RUN");
+  command.option("--seed", arguments->seed, "seed of the nodes that use random numbers");
+  command.option("--cache", common.cache, "cache folder").type_name("DIR");
+  command.callback([&common, &action, arguments] {
     action = [&common, arguments] { return explain_node(common, *arguments); };
   });
 }

@@ -34,17 +34,17 @@ int export_one(const Common& common, const ExportArguments& arguments) {
 
 }  // namespace
 
-void add_export(CLI::App& app, Common& common, Action& action) {
-  CLI::App* command =
-      app.add_subcommand("export", "write an artifact in a usual format (ply, vtp, glb, npy, ...)");
+void add_export(const Command& app, Common& common, Action& action) {
+  const Command command =
+      app.subcommand("export", "write an artifact in a usual format (ply, vtp, glb, npy, ...)");
   const auto arguments = std::make_shared<ExportArguments>();
-  command->add_option("artifact", arguments->artifact, "digest from a run report, or a file of the cache")
-      ->required();
-  command->add_option("file", arguments->path, "file to write")->required();
-  command->add_option("--format", arguments->format, "format; default: by the extension of the file");
-  command->add_option("--cache", common.cache, "cache folder")->type_name("DIR");
-  command->footer(formats_help());
-  command->callback([&common, &action, arguments] {
+  command.option("artifact", arguments->artifact, "digest from a run report, or a file of the cache")
+      .required();
+  command.option("file", arguments->path, "file to write").required();
+  command.option("--format", arguments->format, "format; default: by the extension of the file");
+  command.option("--cache", common.cache, "cache folder").type_name("DIR");
+  command.footer(formats_help());
+  command.callback([&common, &action, arguments] {
     action = [&common, arguments] { return export_one(common, *arguments); };
   });
 }

@@ -40,20 +40,20 @@ int draw(const Common& common, const DrawArguments& arguments) {
 
 }  // namespace
 
-void add_graph(CLI::App& app, Common& common, Action& action) {
-  CLI::App* command =
-      app.add_subcommand("graph", "draw the expanded graph, as text for Graphviz (DOT) or as a page");
+void add_graph(const Command& app, Common& common, Action& action) {
+  const Command command =
+      app.subcommand("graph", "draw the expanded graph, as text for Graphviz (DOT) or as a page");
   const auto arguments = std::make_shared<DrawArguments>();
-  arguments->graph.add_to(*command);
-  command->add_flag("--status", arguments->status, "show what a run would take from the cache (HIT) or run");
+  arguments->graph.add_to(command);
+  command.flag("--status", arguments->status, "show what a run would take from the cache (HIT) or run");
   command
-      ->add_option("--html", arguments->html,
-                   "write a page instead: nodes that can be clicked, with their parameters")
-      ->type_name("PAGE.html");
-  command->add_option("--cache", common.cache, "cache folder, for --status")->type_name("DIR");
-  command->add_option("--seed", arguments->seed, "seed of the nodes that use random numbers, for --status");
-  command->footer("  ballflow graph graphs/medial_axis.json | dot -Tsvg > medial_axis.svg");
-  command->callback(
+      .option("--html", arguments->html,
+              "write a page instead: nodes that can be clicked, with their parameters")
+      .type_name("PAGE.html");
+  command.option("--cache", common.cache, "cache folder, for --status").type_name("DIR");
+  command.option("--seed", arguments->seed, "seed of the nodes that use random numbers, for --status");
+  command.footer("  ballflow graph graphs/medial_axis.json | dot -Tsvg > medial_axis.svg");
+  command.callback(
       [&common, &action, arguments] { action = [&common, arguments] { return draw(common, *arguments); }; });
 }
 

@@ -192,16 +192,15 @@ int new_node(const NewNodeArguments& arguments) {
 
 }  // namespace
 
-void add_new_node(CLI::App& app, Common&, Action& action) {
-  CLI::App* command =
-      app.add_subcommand("new-node", "write a node library of your own: source, test, graph, CMake file");
+void add_new_node(const Command& app, Common&, Action& action) {
+  const Command command =
+      app.subcommand("new-node", "write a node library of your own: source, test, graph, CMake file");
   const auto arguments = std::make_shared<NewNodeArguments>();
-  command->add_option("id", arguments->id, "id of the node: namespace and name")
-      ->required()
-      ->type_name("acme.Offset");
-  command->add_option("--dir", arguments->folder, "folder to create; default: ./acme_offset")
-      ->type_name("DIR");
-  command->callback([&action, arguments] { action = [arguments] { return new_node(*arguments); }; });
+  command.option("id", arguments->id, "id of the node: namespace and name")
+      .required()
+      .type_name("acme.Offset");
+  command.option("--dir", arguments->folder, "folder to create; default: ./acme_offset").type_name("DIR");
+  command.callback([&action, arguments] { action = [arguments] { return new_node(*arguments); }; });
 }
 
 }  // namespace ballflow::cli

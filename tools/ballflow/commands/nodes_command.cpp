@@ -96,21 +96,21 @@ int show_nodes(const Common& common, const NodesArguments& arguments) {
 
 }  // namespace
 
-void add_nodes(CLI::App& app, Common& common, Action& action) {
-  CLI::App* command = app.add_subcommand("nodes", "list the node types, or describe one");
+void add_nodes(const Command& app, Common& common, Action& action) {
+  const Command command = app.subcommand("nodes", "list the node types, or describe one");
   const auto arguments = std::make_shared<NodesArguments>();
   command
-      ->add_option("type", arguments->describe,
-                   "describe this node type: ports, parameters, units, ranges, sources")
-      ->type_name("TYPE");
-  command->add_flag("--schema", arguments->schema, "print the JSON schema of all node types");
-  command->add_flag("--graph-schema", arguments->graph_schema, "print the JSON schema of graph files");
-  command->add_flag("--markdown", arguments->markdown, "print the documentation of all node types");
+      .option("type", arguments->describe,
+              "describe this node type: ports, parameters, units, ranges, sources")
+      .type_name("TYPE");
+  command.flag("--schema", arguments->schema, "print the JSON schema of all node types");
+  command.flag("--graph-schema", arguments->graph_schema, "print the JSON schema of graph files");
+  command.flag("--markdown", arguments->markdown, "print the documentation of all node types");
   command
-      ->add_option("--graphs", arguments->graphs,
-                   "folder of the graphs that examples are taken from (default: the installed ones)")
-      ->type_name("DIR");
-  command->callback([&common, &action, arguments] {
+      .option("--graphs", arguments->graphs,
+              "folder of the graphs that examples are taken from (default: the installed ones)")
+      .type_name("DIR");
+  command.callback([&common, &action, arguments] {
     action = [&common, arguments] { return show_nodes(common, *arguments); };
   });
 }

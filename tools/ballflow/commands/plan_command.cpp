@@ -68,24 +68,24 @@ int check(const Common& common, const GraphArguments& arguments) {
 
 }  // namespace
 
-void add_plan(CLI::App& app, Common& common, Action& action) {
-  CLI::App* command =
-      app.add_subcommand("plan", "say what a run would take from the cache, what it would run, and why");
+void add_plan(const Command& app, Common& common, Action& action) {
+  const Command command =
+      app.subcommand("plan", "say what a run would take from the cache, what it would run, and why");
   const auto arguments = std::make_shared<PlanArguments>();
-  arguments->graph.add_to(*command);
-  command->add_option("--cache", common.cache, "cache folder")->type_name("DIR");
-  command->add_option("--seed", arguments->seed, "seed of the nodes that use random numbers");
-  command->callback([&common, &action, arguments] {
+  arguments->graph.add_to(command);
+  command.option("--cache", common.cache, "cache folder").type_name("DIR");
+  command.option("--seed", arguments->seed, "seed of the nodes that use random numbers");
+  command.callback([&common, &action, arguments] {
     action = [&common, arguments] { return show_plan(common, *arguments); };
   });
 }
 
-void add_check(CLI::App& app, Common& common, Action& action) {
-  CLI::App* command =
-      app.add_subcommand("check", "check a graph without running it; reports all errors at once");
+void add_check(const Command& app, Common& common, Action& action) {
+  const Command command =
+      app.subcommand("check", "check a graph without running it; reports all errors at once");
   const auto arguments = std::make_shared<GraphArguments>();
-  arguments->add_to(*command);
-  command->callback(
+  arguments->add_to(command);
+  command.callback(
       [&common, &action, arguments] { action = [&common, arguments] { return check(common, *arguments); }; });
 }
 

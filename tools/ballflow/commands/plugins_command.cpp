@@ -73,16 +73,16 @@ int list_plugins(const Common& common, bool json) {
 
 }  // namespace
 
-void add_plugins(CLI::App& app, Common& common, Action& action) {
-  CLI::App* command =
-      app.add_subcommand("plugins", "list the node libraries that were found, and why others were refused");
+void add_plugins(const Command& app, Common& common, Action& action) {
+  const Command command =
+      app.subcommand("plugins", "list the node libraries that were found, and why others were refused");
   const auto json = std::make_shared<bool>(false);
-  command->add_flag("--json", *json, "print JSON");
-  command->footer(
+  command.flag("--json", *json, "print JSON");
+  command.footer(
       "Libraries are looked for in --plugin PATH, in the folders of $BALLFLOW_PLUGIN_PATH (separated by "
       "\":\"),\n"
       "and beside the program (../lib/ballflow).");
-  command->callback(
+  command.callback(
       [&common, &action, json] { action = [&common, json] { return list_plugins(common, *json); }; });
 }
 

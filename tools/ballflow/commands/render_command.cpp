@@ -316,61 +316,54 @@ int render(const Common& common, const RenderArguments& arguments) {
 
 }  // namespace
 
-void add_render(CLI::App& app, Common& common, Action& action) {
-  CLI::App* command = app.add_subcommand("render", "draw artifacts, runs and models into a PNG file");
+void add_render(const Command& app, Common& common, Action& action) {
+  const Command command = app.subcommand("render", "draw artifacts, runs and models into a PNG file");
   const auto arguments = std::make_shared<RenderArguments>();
   command
-      ->add_option(
-          "source", arguments->names,
-          "digests or files of artifacts; runs (an id, latest, previous, a report file), of which the\n"
-          "outputs are drawn; model files (OFF, OBJ, PLY, STL, ...) and shapes (shape:torus)")
-      ->required()
-      ->type_name("ARTIFACT|RUN|FILE...");
-  command->add_option("-o,--output", arguments->output, "picture to write (.png)")
-      ->required()
-      ->type_name("FILE");
-  command->add_option("--size", arguments->size, "width and height in pixels")
-      ->type_name("WxH")
-      ->capture_default_str();
+      .option("source", arguments->names,
+              "digests or files of artifacts; runs (an id, latest, previous, a report file), of which the\n"
+              "outputs are drawn; model files (OFF, OBJ, PLY, STL, ...) and shapes (shape:torus)")
+      .required()
+      .type_name("ARTIFACT|RUN|FILE...");
+  command.option("-o,--output", arguments->output, "picture to write (.png)").required().type_name("FILE");
+  command.option("--size", arguments->size, "width and height in pixels").type_name("WxH").shows_default();
   command
-      ->add_option("--view", arguments->view,
-                   "iso, front, back, left, right, top, bottom, or azimuth,elevation in degrees")
-      ->capture_default_str();
-  command->add_option("--up", arguments->up, "the axis that points up in the picture")
-      ->check(CLI::IsMember({"y", "z"}))
-      ->capture_default_str();
-  command->add_option("--ground", arguments->ground, "white, dark, none (transparent) or a colour as #e8ecf0")
-      ->capture_default_str();
+      .option("--view", arguments->view,
+              "iso, front, back, left, right, top, bottom, or azimuth,elevation in degrees")
+      .shows_default();
+  command.option("--up", arguments->up, "the axis that points up in the picture")
+      .one_of({"y", "z"})
+      .shows_default();
+  command.option("--ground", arguments->ground, "white, dark, none (transparent) or a colour as #e8ecf0")
+      .shows_default();
   command
-      ->add_option("--layers", arguments->layers,
-                   "draw only these: names of layers, or of outputs of a run for what they show at first")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("NAME,NAME");
+      .option("--layers", arguments->layers,
+              "draw only these: names of layers, or of outputs of a run for what they show at first")
+      .delimiter(',')
+      .one_at_a_time()
+      .type_name("NAME,NAME");
   command
-      ->add_option("--colour-by", arguments->colour_by,
-                   "attribute that gives the colour, of one layer or of all that have it; none: plain")
-      ->allow_extra_args(false)
-      ->type_name("[LAYER=]ATTRIBUTE");
-  command->add_option("--opacity", arguments->opacity, "of one layer or of all, above 0 and at most 1")
-      ->allow_extra_args(false)
-      ->type_name("[LAYER=]X");
+      .option("--colour-by", arguments->colour_by,
+              "attribute that gives the colour, of one layer or of all that have it; none: plain")
+      .one_at_a_time()
+      .type_name("[LAYER=]ATTRIBUTE");
+  command.option("--opacity", arguments->opacity, "of one layer or of all, above 0 and at most 1")
+      .one_at_a_time()
+      .type_name("[LAYER=]X");
   command
-      ->add_option("--clip", arguments->clips,
-                   "cut off what is beyond a plane: x=0.5 removes x > 0.5, -x=0.5 removes x < 0.5, in model\n"
-                   "units; x=50% is the middle of the bounding box")
-      ->allow_extra_args(false)
-      ->type_name("AXIS=VALUE");
-  command
-      ->add_option("--point-size", arguments->point_size, "diameter of points and width of lines in pixels")
-      ->check(CLI::Range(0.1, 1000.0));
-  command->add_flag("--beside", arguments->beside,
-                    "one picture beside the other, for every source or name of --layers, in one scale");
-  command->add_flag("--no-legend", arguments->no_legend, "do not explain the colours");
-  command->add_option("--threads", arguments->threads, "threads; default: all cores")
-      ->check(CLI::Range(1, 1024));
-  command->add_option("--cache", common.cache, "cache folder")->type_name("DIR");
-  command->callback([&common, &action, arguments] {
+      .option("--clip", arguments->clips,
+              "cut off what is beyond a plane: x=0.5 removes x > 0.5, -x=0.5 removes x < 0.5, in model\n"
+              "units; x=50% is the middle of the bounding box")
+      .one_at_a_time()
+      .type_name("AXIS=VALUE");
+  command.option("--point-size", arguments->point_size, "diameter of points and width of lines in pixels")
+      .between(0.1, 1000.0);
+  command.flag("--beside", arguments->beside,
+               "one picture beside the other, for every source or name of --layers, in one scale");
+  command.flag("--no-legend", arguments->no_legend, "do not explain the colours");
+  command.option("--threads", arguments->threads, "threads; default: all cores").between(1, 1024);
+  command.option("--cache", common.cache, "cache folder").type_name("DIR");
+  command.callback([&common, &action, arguments] {
     action = [&common, arguments] { return render(common, *arguments); };
   });
 }

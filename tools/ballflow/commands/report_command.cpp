@@ -67,21 +67,19 @@ int write(const Common& common, const ReportArguments& arguments) {
 
 }  // namespace
 
-void add_report(CLI::App& app, Common& common, Action& action) {
-  CLI::App* command =
-      app.add_subcommand("report", "a run, or a sweep, as one page: results, plots, pictures, sources");
+void add_report(const Command& app, Common& common, Action& action) {
+  const Command command =
+      app.subcommand("report", "a run, or a sweep, as one page: results, plots, pictures, sources");
   const auto arguments = std::make_shared<ReportArguments>();
   command
-      ->add_option("run", arguments->run,
-                   "an id of a run or the beginning of one (see \"ballflow runs\"), latest, previous,\n"
-                   "a report file, or a folder with a report.json; default: latest")
-      ->type_name("RUN");
-  command->add_option("-o,--output", arguments->path, "the page to write; default: report.html")
-      ->type_name("FILE");
-  command->add_option("--pictures", arguments->pictures, "draw at most so many outputs")
-      ->capture_default_str();
-  command->add_option("--cache", common.cache, "cache folder")->type_name("DIR");
-  command->callback(
+      .option("run", arguments->run,
+              "an id of a run or the beginning of one (see \"ballflow runs\"), latest, previous,\n"
+              "a report file, or a folder with a report.json; default: latest")
+      .type_name("RUN");
+  command.option("-o,--output", arguments->path, "the page to write; default: report.html").type_name("FILE");
+  command.option("--pictures", arguments->pictures, "draw at most so many outputs").shows_default();
+  command.option("--cache", common.cache, "cache folder").type_name("DIR");
+  command.callback(
       [&common, &action, arguments] { action = [&common, arguments] { return write(common, *arguments); }; });
 }
 

@@ -307,50 +307,49 @@ int run(const Common& common, const RunArguments& arguments) {
 
 namespace {
 
-void add_command(CLI::App& app, Common& common, Action& action, bool sweep) {
-  CLI::App* command =
-      sweep ? app.add_subcommand("sweep", "run all variants of a graph; what they have in common runs once")
-            : app.add_subcommand("run", "run a graph; what is in the cache is not computed again");
+void add_command(const Command& app, Common& common, Action& action, bool sweep) {
+  const Command command =
+      sweep ? app.subcommand("sweep", "run all variants of a graph; what they have in common runs once")
+            : app.subcommand("run", "run a graph; what is in the cache is not computed again");
   const auto arguments = std::make_shared<RunArguments>();
   arguments->sweep = sweep;
-  arguments->graph.add_to(*command);
-  command->add_option("--out", arguments->out, "folder that receives the outputs of the graph")
-      ->type_name("DIR");
+  arguments->graph.add_to(command);
+  command.option("--out", arguments->out, "folder that receives the outputs of the graph").type_name("DIR");
   command
-      ->add_option("--format", arguments->formats,
-                   "format of an output file, e.g. balls=csv; see \"ballflow export --help\" for the formats")
-      ->type_name("OUTPUT=FORMAT")
-      ->allow_extra_args(false);
-  command->add_option("--report", arguments->report, "file that receives the report of the run (JSON)")
-      ->type_name("FILE");
-  command->add_option("--cache", common.cache, "cache folder")->type_name("DIR");
+      .option("--format", arguments->formats,
+              "format of an output file, e.g. balls=csv; see \"ballflow export --help\" for the formats")
+      .type_name("OUTPUT=FORMAT")
+      .one_at_a_time();
+  command.option("--report", arguments->report, "file that receives the report of the run (JSON)")
+      .type_name("FILE");
+  command.option("--cache", common.cache, "cache folder").type_name("DIR");
   command
-      ->add_option("--cache-size", common.cache_size,
-                   "size of the cache above which what is worth least is removed, e.g. 5G, or none\n"
-                   "(default: $BALLFLOW_CACHE_SIZE, else 20 GiB or a tenth of the disk, the smaller)")
-      ->type_name("SIZE");
-  command->add_flag("--no-cache", common.no_cache, "neither read nor write a cache");
-  arguments->settings.add_to(*command);
+      .option("--cache-size", common.cache_size,
+              "size of the cache above which what is worth least is removed, e.g. 5G, or none\n"
+              "(default: $BALLFLOW_CACHE_SIZE, else 20 GiB or a tenth of the disk, the smaller)")
+      .type_name("SIZE");
+  command.flag("--no-cache", common.no_cache, "neither read nor write a cache");
+  arguments->settings.add_to(command);
   command
-      ->add_option("--trace", arguments->trace,
-                   "file that receives a time line of the run, to be opened in ui.perfetto.dev")
-      ->type_name("FILE");
-  command->add_flag("--json", arguments->json,
-                    "write events as lines of JSON (schemas/run_events.schema.json) to the standard output");
-  command->add_flag("--quiet", arguments->quiet, "print errors only");
+      .option("--trace", arguments->trace,
+              "file that receives a time line of the run, to be opened in ui.perfetto.dev")
+      .type_name("FILE");
+  command.flag("--json", arguments->json,
+               "write events as lines of JSON (schemas/run_events.schema.json) to the standard output");
+  command.flag("--quiet", arguments->quiet, "print errors only");
   if (sweep) {
-    command->footer(
+    command.footer(
         "Outputs go to a folder per variant, DIR/epsilon=0.1,strategy=greedy/, the report to "
         "DIR/report.json.\n"
         "\"ballflow compare\" prints the table again, with other columns and formats.");
   }
-  command->callback(
+  command.callback(
       [&common, &action, arguments] { action = [&common, arguments] { return run(common, *arguments); }; });
 }
 
 }  // namespace
 
-void add_run(CLI::App& app, Common& common, Action& action) { add_command(app, common, action, false); }
-void add_sweep(CLI::App& app, Common& common, Action& action) { add_command(app, common, action, true); }
+void add_run(const Command& app, Common& common, Action& action) { add_command(app, common, action, false); }
+void add_sweep(const Command& app, Common& common, Action& action) { add_command(app, common, action, true); }
 
 }  // namespace ballflow::cli

@@ -3,33 +3,29 @@
 
 namespace ballflow::cli {
 
-void RunSettings::add_to(CLI::App& command) {
+void RunSettings::add_to(const Command& command) {
+  command.option("--threads", threads, "number of threads; 0: all cores (the result never depends on it)")
+      .between(0, 4096);
   command
-      .add_option("--threads", threads, "number of threads; 0: all cores (the result never depends on it)")
-      ->check(CLI::Range(0u, 4096u));
-  command
-      .add_option("--memory", memory,
-                  "what the nodes that run at the same time may need together by their own estimates:\n"
-                  "8G, a number of bytes, or 50% of the memory of this machine (default: 80%)")
-      ->type_name("SIZE");
-  command.add_option("--seed", seed, "seed of the nodes that use random numbers");
-  command.add_flag("--keep-going", keep_going,
-                   "after a failure, go on with what does not need the failed node");
+      .option("--memory", memory,
+              "what the nodes that run at the same time may need together by their own estimates:\n"
+              "8G, a number of bytes, or 50% of the memory of this machine (default: 80%)")
+      .type_name("SIZE");
+  command.option("--seed", seed, "seed of the nodes that use random numbers");
+  command.flag("--keep-going", keep_going, "after a failure, go on with what does not need the failed node");
   const auto nodes = [&command](const char* name, std::vector<std::string>& list, const char* doc) {
-    return command.add_option(name, list, doc)->type_name("NODE")->allow_extra_args(false);
+    return command.option(name, list, doc).type_name("NODE").one_at_a_time();
   };
-  CLI::Option* const to =
-      nodes("--until", until, "run this node (or subgraph) and what it needs; may be repeated");
+  const Option to = nodes("--until", until, "run this node (or subgraph) and what it needs; may be repeated");
   nodes("--only", only,
         "run this node (or subgraph) alone: what it needs has to be in the cache; may be repeated")
-      ->excludes(to);
+      .excludes(to);
   nodes("--force", force, "compute this node (or subgraph) although it is in the cache; may be repeated");
-  command.add_flag("--strict", strict,
-                   "exit 3 when a node that is computed again gives another result than before\n"
-                   "(otherwise a warning: the new result replaces the old one)");
-  command.add_flag(
-      "--check-determinism", check_determinism,
-      "run every node again, with one thread and with several, and say where the results differ");
+  command.flag("--strict", strict,
+               "exit 3 when a node that is computed again gives another result than before\n"
+               "(otherwise a warning: the new result replaces the old one)");
+  command.flag("--check-determinism", check_determinism,
+               "run every node again, with one thread and with several, and say where the results differ");
 }
 
 RunOptions RunSettings::options(const Dag& dag) const {

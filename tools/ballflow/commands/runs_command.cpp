@@ -28,21 +28,21 @@ int list(const Common& common, const RunsArguments& arguments) {
 
 }  // namespace
 
-void add_runs(CLI::App& app, Common& common, Action& action) {
-  CLI::App* command =
-      app.add_subcommand("runs", "list the runs that the cache has a record of, newest first");
+void add_runs(const Command& app, Common& common, Action& action) {
+  const Command command =
+      app.subcommand("runs", "list the runs that the cache has a record of, newest first");
   const auto arguments = std::make_shared<RunsArguments>();
-  command->add_option("--limit", arguments->limit, "at most so many runs; default: 20")
-      ->check(CLI::Range(1, 1000))
-      ->type_name("N");
-  command->add_option("--cache", common.cache, "cache folder")->type_name("DIR");
-  command->footer(
+  command.option("--limit", arguments->limit, "at most so many runs; default: 20")
+      .between(1, 1000)
+      .type_name("N");
+  command.option("--cache", common.cache, "cache folder").type_name("DIR");
+  command.footer(
       "The id of a run is the time (UTC) when it began, a mark of its graph file and something random. "
       "Commands\n"
       "that take a run accept its id, the beginning of it, \"latest\", \"previous\", a report file, or a "
       "folder\n"
       "with a report.json in it.");
-  command->callback(
+  command.callback(
       [&common, &action, arguments] { action = [&common, arguments] { return list(common, *arguments); }; });
 }
 

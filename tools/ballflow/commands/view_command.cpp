@@ -66,26 +66,26 @@ int view(const Common& common, const ViewArguments& arguments) {
 
 }  // namespace
 
-void add_view(CLI::App& app, Common& common, Action& action) {
-  CLI::App* command = app.add_subcommand(
+void add_view(const Command& app, Common& common, Action& action) {
+  const Command command = app.subcommand(
       "view", "write a page that shows runs and artifacts in 3D, in any browser and without a network");
   const auto arguments = std::make_shared<ViewArguments>();
   command
-      ->add_option("what", arguments->names,
-                   "runs: an id or the beginning of one (see \"ballflow runs\"), latest, previous, a report\n"
-                   "file, or a folder with a report.json; artifacts: a digest from a report, or a file of\n"
-                   "the cache; default: latest")
-      ->type_name("RUN|ARTIFACT...");
-  command->add_option("-o,--output", arguments->output, "page to write; default: view.html")
-      ->type_name("PAGE.html");
+      .option("what", arguments->names,
+              "runs: an id or the beginning of one (see \"ballflow runs\"), latest, previous, a report\n"
+              "file, or a folder with a report.json; artifacts: a digest from a report, or a file of\n"
+              "the cache; default: latest")
+      .type_name("RUN|ARTIFACT...");
+  command.option("-o,--output", arguments->output, "page to write; default: view.html")
+      .type_name("PAGE.html");
   command
-      ->add_option("--max-size", arguments->max_size,
-                   "leave out what would make the page larger than this; outputs of the graph come first;\n"
-                   "default: 64M")
-      ->type_name("SIZE");
-  command->add_option("--cache", common.cache, "cache folder")->type_name("DIR");
-  command->footer("  ballflow view latest -o dragon.html");
-  command->callback(
+      .option("--max-size", arguments->max_size,
+              "leave out what would make the page larger than this; outputs of the graph come first;\n"
+              "default: 64M")
+      .type_name("SIZE");
+  command.option("--cache", common.cache, "cache folder").type_name("DIR");
+  command.footer("  ballflow view latest -o dragon.html");
+  command.callback(
       [&common, &action, arguments] { action = [&common, arguments] { return view(common, *arguments); }; });
 }
 

@@ -75,4 +75,11 @@ std::string number(double value) {
   return text;
 }
 
+std::string shown(const nlohmann::json& value) {
+  if (value.is_null()) return "\xe2\x80\x93";
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number()) return number(value.get<double>());
+  return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 }  // namespace ballflow::report

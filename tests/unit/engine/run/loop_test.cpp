@@ -1,7 +1,9 @@
 // Loops: iterations in memory, one node for the cache and the report.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include "ballflow/report.hpp"
 #include "ballflow/run.hpp"
@@ -353,10 +355,10 @@ TEST_F(LoopTest, a_file_that_changes_while_the_body_reads_it_is_a_failure) {
   test::write_file(file, "2");
   EXPECT_EQ(run(dag, store()).status, ExitCode::ok);
   EXPECT_EQ(last, 4) << "its content is part of the key";
-  toy::FromFile::before_reading = [](const std::string& path) { test::write_file(path, "5.5"); };
+  toy::before_reading = [](const std::string& path) { test::write_file(path, "5.5"); };
   test::write_file(file, "3");
   const RunResult changed = run(dag, store());
-  toy::FromFile::before_reading = nullptr;
+  toy::before_reading = nullptr;
   EXPECT_EQ(of_loop(dag, changed).cause, file + " changed while the run was reading it");
 }
 

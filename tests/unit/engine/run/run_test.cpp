@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include "ballflow/history.hpp"
 #include "ballflow/report.hpp"
@@ -269,9 +271,9 @@ TEST_F(RunTest, a_file_that_changes_before_it_is_read_leaves_no_entry) {
   test::write_file(folder.file("number.txt"), "1");
   const auto read = node(dag, "read", "FromFile", {}, {{"file", folder.file("number.txt")}});
   dag.outputs.push_back({"numbers", "", {read, "numbers"}});
-  toy::FromFile::before_reading = [](const std::string& path) { test::write_file(path, "2"); };
+  toy::before_reading = [](const std::string& path) { test::write_file(path, "2"); };
   const RunResult changed = run(dag, store());
-  toy::FromFile::before_reading = nullptr;
+  toy::before_reading = nullptr;
   EXPECT_EQ(changed.nodes[read].status, NodeStatus::failed);
   EXPECT_NE(changed.nodes[read].cause.find("number.txt"), std::string::npos) << changed.nodes[read].cause;
   test::write_file(folder.file("number.txt"), "1");

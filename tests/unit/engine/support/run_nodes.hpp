@@ -1,44 +1,20 @@
-// A plugin inside the test: small nodes whose executions are counted.
+// A plugin inside the test: small nodes whose executions are counted. Compiled once, in run_nodes.cpp,
+// because each file that instantiates them takes a quarter of a minute.
+//
+//   Source   value, count -> numbers         Add      a [, b] -> sum             Round   numbers -> rounded
+//   Slow     numbers, seconds -> numbers     Fail     always                     Step    numbers, by, fail_at
+//   -> numbers Noisy    another result each time        Threads  the number of threads      Busy    40 ms of
+//   CPU time Negative an output that its type forbids Heavy    says that it needs 60 B    FromFile  the
+//   number in a file Babble   messages that are no text
 #pragma once
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <atomic>
-#include <chrono>
-#include <cmath>
-#include <ctime>
-#include <fstream>
 #include <functional>
-#include <limits>
-#include <memory>
-#include <thread>
+#include <string>
 
-#include "ballflow/run.hpp"
-#include "ballflow/sdk.hpp"
+#include "ballflow/plugin.h"
 
 namespace toy {
-
-template <class T>
-struct List {  // the smallest shared array
-  using value_type = T;
-  List() = default;
-  List(std::vector<T> v) : owner(std::make_shared<std::vector<T>>(std::move(v))) {
-    begin = std::static_pointer_cast<std::vector<T>>(owner)->data();
-    count = std::static_pointer_cast<std::vector<T>>(owner)->size();
-  }
-  List(const T* d, std::size_t n, std::shared_ptr<const void> o) : begin(d), count(n), keeper(std::move(o)) {}
-  const T* data() const { return begin; }
-  std::size_t size() const { return count; }
-  const T* begin = nullptr;
-  std::size_t count = 0;
-  std::shared_ptr<void> owner;
-  std::shared_ptr<const void> keeper;
-};
-
-struct Numbers {
-  List<double> values;
-};
 
 struct Counters {
   std::atomic<int> source{0}, add{0}, round{0}, slow{0}, fail{0}, noisy{0}, heavy{0};
@@ -47,10 +23,8 @@ struct Counters {
 inline Counters counters;
 inline std::atomic<bool> steady_noise{false};  // Noisy gives the same again
 inline std::atomic<bool> holding{false};       // Slow and Heavy do not end while it is set, up to a minute
-inline void wait_while_holding() {
-  for (int tries = 0; holding && tries < 60'000; ++tries)
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-}
+/// FromFile calls it with the file before it reads.
+inline std::function<void(const std::string&)> before_reading;
 inline void reset() {
   counters.source = counters.add = counters.round = counters.slow = counters.fail = counters.noisy =
       counters.heavy = 0;
@@ -58,264 +32,7 @@ inline void reset() {
   holding = false;
 }
 
-}  // namespace toy
-
-template <>
-struct ballflow::TypeOf<toy::Numbers> {
-  static void declare(TypeDecl<toy::Numbers>& d) {
-    d.id("Numbers", 1).doc("A list of numbers.");
-    d.array("values", &toy::Numbers::values).length("n").doc("the numbers");
-    d.summary("count", "how many").summary("first", "the first number, null when there is none");
-    d.summarize([](const toy::Numbers& v) {
-      return Json{{"count", v.values.size()},
-                  {"first", v.values.size() == 0 ? Json(nullptr) : Json(v.values.data()[0])}};
-    });
-    d.check([](const toy::Numbers& v) {
-      for (std::size_t i = 0; i < v.values.size(); ++i) {
-        if (v.values.data()[i] < 0) return "number " + std::to_string(i) + " is negative";
-      }
-      return std::string();
-    });
-  }
-};
-
-namespace toy {
-
-using namespace ballflow;
-
-struct Source {
-  Out<Numbers> numbers;
-  double value = 1;
-  std::int64_t count = 3;
-  static void declare(NodeDecl<Source>& d) {
-    d.id("Source", 1).summary("Equal numbers.");
-    d.output("numbers", &Source::numbers).doc("the numbers");
-    d.param("value", &Source::value).doc("the number");
-    d.param("count", &Source::count).at_least(0).doc("how many");
-  }
-  void run(RunContext&) {
-    ++counters.source;
-    numbers = Numbers{std::vector<double>(static_cast<std::size_t>(count), value)};
-  }
-};
-
-struct Add {
-  In<Numbers> a, b;
-  Out<Numbers> sum;
-  static void declare(NodeDecl<Add>& d) {
-    d.id("Add", 1).summary("Sums element by element.");
-    d.input("a", &Add::a).doc("first");
-    d.input("b", &Add::b).optional().doc("second, or nothing");
-    d.output("sum", &Add::sum).doc("the sums");
-  }
-  void run(RunContext& context) {
-    ++counters.add;
-    std::vector<double> v(a->values.data(), a->values.data() + a->values.size());
-    if (b) {
-      for (std::size_t i = 0; i < v.size(); ++i) v[i] += b->values.data()[i];
-    } else {
-      context.warn("nothing to add");
-    }
-    sum = Numbers{std::move(v)};
-  }
-};
-
-struct Round {
-  In<Numbers> numbers;
-  Out<Numbers> rounded;
-  static void declare(NodeDecl<Round>& d) {
-    d.id("Round", 1).summary("Rounds down.");
-    d.input("numbers", &Round::numbers).doc("any");
-    d.output("rounded", &Round::rounded).doc("whole numbers");
-  }
-  void run(RunContext&) {
-    ++counters.round;
-    std::vector<double> v(numbers->values.data(), numbers->values.data() + numbers->values.size());
-    for (double& x : v) x = std::floor(x);
-    rounded = Numbers{std::move(v)};
-  }
-};
-
-struct Slow {
-  In<Numbers> numbers;
-  Out<Numbers> same;
-  double seconds = 30;
-  static void declare(NodeDecl<Slow>& d) {
-    d.id("Slow", 1).summary("Waits.");
-    d.input("numbers", &Slow::numbers).doc("any");
-    d.output("numbers", &Slow::same).doc("the same");
-    d.param("seconds", &Slow::seconds).unit("s").at_least(0).doc("how long");
-  }
-  void run(RunContext& context) {
-    ++counters.slow;
-    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-    while (std::chrono::steady_clock::now() < end) {
-      context.check_cancelled();
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    wait_while_holding();
-    same = *numbers;
-  }
-};
-
-struct Fail {
-  In<Numbers> numbers;
-  Out<Numbers> nothing;
-  static void declare(NodeDecl<Fail>& d) {
-    d.id("Fail", 1).summary("Fails.");
-    d.input("numbers", &Fail::numbers).doc("any");
-    d.output("numbers", &Fail::nothing).doc("never");
-  }
-  void run(RunContext&) {
-    ++counters.fail;
-    throw NodeError("number 7 is odd", "use even numbers");
-  }
-};
-
-/// One more, with a warning of its own each time.
-struct Step {
-  In<Numbers> numbers;
-  Out<Numbers> next;
-  double by = 1;
-  double fail_at = -1;
-  static void declare(NodeDecl<Step>& d) {
-    d.id("Step", 1).summary("Counts.");
-    d.input("numbers", &Step::numbers).doc("any");
-    d.output("numbers", &Step::next).doc("all of them greater");
-    d.param("by", &Step::by).doc("how much greater");
-    d.param("fail_at", &Step::fail_at).doc("fails where the first number is this");
-  }
-  void run(RunContext& context) {
-    std::vector<double> v(numbers->values.data(), numbers->values.data() + numbers->values.size());
-    if (!v.empty() && v[0] == fail_at) throw NodeError("cannot count on", "start at another number");
-    for (double& x : v) x += by;
-    if (!v.empty()) context.warn("reached " + std::to_string(static_cast<int>(v[0])));
-    next = Numbers{std::move(v)};
-  }
-};
-
-/// Breaks the promise of determinism: another result at every execution.
-struct Noisy {
-  Out<Numbers> numbers;
-  static void declare(NodeDecl<Noisy>& d) {
-    d.id("Noisy", 1).summary("Counts its executions.");
-    d.output("numbers", &Noisy::numbers).doc("the count");
-  }
-  void run(RunContext&) {
-    const int count = steady_noise ? counters.noisy.load() : ++counters.noisy;
-    numbers = Numbers{std::vector<double>{static_cast<double>(count)}};
-  }
-};
-
-/// Breaks it in the usual way: the result depends on the number of threads.
-struct Threads {
-  Out<Numbers> numbers;
-  static void declare(NodeDecl<Threads>& d) {
-    d.id("Threads", 1).summary("Counts the threads it may use.");
-    d.output("numbers", &Threads::numbers).doc("the count");
-  }
-  void run(RunContext&) {
-    const auto threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-    numbers = Numbers{std::vector<double>{static_cast<double>(threads)}};
-  }
-};
-
-/// Keeps several threads busy, and says for how long by their own clocks.
-struct Busy {
-  Out<Numbers> numbers;
-  static void declare(NodeDecl<Busy>& d) {
-    d.id("Busy", 1).summary("Takes 40 ms of CPU time, in four parts.");
-    d.output("numbers", &Busy::numbers).doc("4 x seconds");
-  }
-  void run(RunContext&) {
-    const auto now = [] {
-      timespec t{};
-      clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-      return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-    };
-    std::vector<double> seconds(4);
-    tbb::parallel_for(std::size_t{0}, seconds.size(), [&](std::size_t i) {
-      const double start = now();
-      while ((seconds[i] = now() - start) < 0.01) {
-      }
-    });
-    numbers = Numbers{std::move(seconds)};
-  }
-};
-
-/// Hands over what its type forbids.
-struct Negative {
-  Out<Numbers> numbers;
-  static void declare(NodeDecl<Negative>& d) {
-    d.id("Negative", 1).summary("Breaks an invariant.");
-    d.output("numbers", &Negative::numbers).doc("a negative number");
-  }
-  void run(RunContext&) { numbers = Numbers{std::vector<double>{1, -1}}; }
-};
-
-struct Heavy {
-  Out<Numbers> numbers;
-  double value = 1;
-  static void declare(NodeDecl<Heavy>& d) {
-    d.id("Heavy", 1).summary("Says that it needs 60 bytes.");
-    d.memory(60, 0);
-    d.output("numbers", &Heavy::numbers).doc("a number");
-    d.param("value", &Heavy::value).doc("the number");
-  }
-  void run(RunContext&) {
-    ++counters.heavy;
-    const int now = ++counters.heavy_now;
-    int most = counters.heavy_most;
-    while (most < now && !counters.heavy_most.compare_exchange_weak(most, now)) {
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    wait_while_holding();
-    --counters.heavy_now;
-    numbers = Numbers{std::vector<double>{value}};
-  }
-};
-
-/// Gives the number in a file; the file is written to before it is read when `before_reading` is set.
-struct FromFile {
-  Out<Numbers> numbers;
-  std::string file;
-  static inline std::function<void(const std::string&)> before_reading;
-  static void declare(NodeDecl<FromFile>& d) {
-    d.id("FromFile", 1).summary("Reads a number.");
-    d.output("numbers", &FromFile::numbers).doc("the number");
-    d.param("file", &FromFile::file).file().doc("a file with a number");
-  }
-  void run(RunContext&) {
-    if (before_reading) before_reading(file);
-    double value = 0;
-    std::ifstream(file) >> value;
-    numbers = Numbers{std::vector<double>{value}};
-  }
-};
-
-/// Says nonsense: a progress that is no number, a warning that is no text.
-struct Babble {
-  Out<Numbers> numbers;
-  static void declare(NodeDecl<Babble>& d) {
-    d.id("Babble", 1).summary("Reports nonsense.");
-    d.output("numbers", &Babble::numbers).doc("a number");
-  }
-  void run(RunContext& context) {
-    context.progress(std::numeric_limits<double>::quiet_NaN());
-    context.warn("caf\xe9 \033[2J");
-    numbers = Numbers{std::vector<double>{1}};
-  }
-};
-
-inline const bf_plugin& plugin() {
-  static const std::vector<const bf_node*> nodes =
-      node_entries<Source, Add, Round, Slow, Fail, Step, Noisy, Threads, Busy, Negative, Heavy, FromFile,
-                   Babble>();
-  static const std::vector<const bf_type*> types = type_entries<Numbers>();
-  static const bf_plugin plugin = {sizeof(bf_plugin),  BALLFLOW_ABI_VERSION, detail::bytes("toy"),
-                                   detail::bytes("1"), types.data(),         types.size(),
-                                   nodes.data(),       nodes.size()};
-  return plugin;
-}
+/// The nodes above and their type Numbers.
+const bf_plugin& plugin();
 
 }  // namespace toy

@@ -4,6 +4,9 @@
 
 #include <bit>
 #include <new>
+#include <string_view>
+
+#include "show/page/base64.hpp"
 
 namespace ballflow::show {
 namespace {
@@ -43,24 +46,13 @@ std::vector<std::uint8_t> deflated(const std::vector<std::uint8_t>& bytes) {
   return packed;
 }
 
-std::string base64(const std::vector<std::uint8_t>& bytes) {
-  constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const auto at = [&](std::size_t k) { return k < bytes.size() ? std::uint32_t{bytes[k]} : 0U; };
-    const std::uint32_t three = at(i) << 16 | at(i + 1) << 8 | at(i + 2);
-    text += digits[three >> 18];
-    text += digits[three >> 12 & 63];
-    text += i + 1 < bytes.size() ? digits[three >> 6 & 63] : '=';
-    text += i + 2 < bytes.size() ? digits[three & 63] : '=';
-  }
-  return text;
-}
-
 template <class T>
 std::span<const std::uint8_t> bytes_of(std::span<const T> values) {
   return {reinterpret_cast<const std::uint8_t*>(values.data()), values.size_bytes()};
+}
+
+std::string_view text_of(const std::vector<std::uint8_t>& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 }  // namespace
@@ -95,7 +87,7 @@ std::size_t Blocks::add(Block::Type type, std::size_t count, std::span<const std
   const Content content{type, count, sum.low, sum.high};
   const auto [known, is_new] = known_.try_emplace(content, blocks_.size());
   if (!is_new) return known->second;
-  blocks_.push_back({type, count, base64(deflated(by_significance(raw, size_of(type))))});
+  blocks_.push_back({type, count, base64(text_of(deflated(by_significance(raw, size_of(type)))))});
   contents_.push_back(content);
   bytes_ += blocks_.back().base64.size();
   return known->second;
