@@ -35,6 +35,10 @@ class Lists {
     return {values_.data() + begin(list), length(list)};
   }
   std::span<T> operator[](std::size_t list) { return {values_.data() + begin(list), length(list)}; }
+  /// The values of lists [first, last), one after another.
+  std::span<const T> range(std::size_t first, std::size_t last) const {
+    return {values_.data() + begin(first), values_.data() + begin(last)};
+  }
 
  private:
   std::size_t begin(std::size_t list) const { return list == 0 ? 0 : end_[list - 1]; }

@@ -1,24 +1,82 @@
 #include "cover/components.hpp"
 
+#include <boost/graph/graph_traits.hpp>
+#include <boost/graph/incremental_components.hpp>
 #include <boost/pending/disjoint_sets.hpp>
 #include <numeric>
 #include <utility>
 
-namespace ballflow::geometry {
+#include "base/lists.hpp"
 
-// The incremental components of Boost.Graph, on the columns alone: a row joins all its columns. The graph
-// itself, with millions of edges, is never built.
+namespace ballflow::geometry {
+namespace {
+
+/// The columns of a matrix as a graph of Boost.Graph that is never built: a row joins its first column to
+/// each of the others. It is an EdgeListGraph, the edges of which are enumerated once.
+class ColumnGraph {
+ public:
+  using vertex_descriptor = std::int32_t;
+  using edge_descriptor = std::pair<std::int32_t, std::int32_t>;
+  using directed_category = boost::undirected_tag;
+  using edge_parallel_category = boost::allow_parallel_edge_tag;
+  using traversal_category = boost::edge_list_graph_tag;
+
+  class edge_iterator {
+   public:
+    using iterator_category = std::input_iterator_tag;
+    using value_type = edge_descriptor;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const edge_descriptor*;
+    using reference = edge_descriptor;
+
+    edge_iterator() = default;
+    edge_iterator(const ColumnGraph& graph, std::size_t row) : graph_(&graph), row_(row) { skip(); }
+    edge_descriptor operator*() const { return {columns()[0], columns()[at_]}; }
+    edge_iterator& operator++() {
+      ++at_;
+      skip();
+      return *this;
+    }
+    friend bool operator==(const edge_iterator& a, const edge_iterator& b) {
+      return a.row_ == b.row_ && a.at_ == b.at_;
+    }
+    friend bool operator!=(const edge_iterator& a, const edge_iterator& b) { return !(a == b); }
+
+   private:
+    std::span<const std::int32_t> columns() const { return graph_->state_.row(row_); }
+    void skip() {
+      while (row_ < graph_->state_.rows() && at_ >= columns().size()) {
+        graph_->look_(columns().size());
+        ++row_;
+        at_ = 1;
+      }
+    }
+    const ColumnGraph* graph_ = nullptr;
+    std::size_t row_ = 0, at_ = 1;
+  };
+
+  ColumnGraph(const CoverState& state, Monitor& monitor) : state_(state), look_(monitor) {}
+
+  friend std::pair<edge_iterator, edge_iterator> edges(const ColumnGraph& graph) {
+    return {{graph, 0}, {graph, graph.state_.rows()}};
+  }
+  friend vertex_descriptor source(const edge_descriptor& edge, const ColumnGraph&) { return edge.first; }
+  friend vertex_descriptor target(const edge_descriptor& edge, const ColumnGraph&) { return edge.second; }
+
+ private:
+  const CoverState& state_;
+  mutable Lookout look_;
+};
+
+}  // namespace
+
 Components components(const CoverState& state, Monitor& monitor) {
   const std::size_t cols = state.cols();
   std::vector<std::int32_t> rank(cols), parent(cols);
   std::iota(parent.begin(), parent.end(), 0);
   boost::disjoint_sets sets(rank.data(), parent.data());
-  Lookout look(monitor);
-  for (std::size_t i = 0; i < state.rows(); ++i) {
-    const auto row = state.row(i);
-    look(row.size());
-    for (std::size_t k = 1; k < row.size(); ++k) sets.union_set(row[0], row[k]);
-  }
+  const ColumnGraph graph(state, monitor);
+  boost::incremental_components(graph, sets);
 
   Components result;
   result.of_column.resize(cols);
@@ -45,17 +103,12 @@ Components components(const CoverState& state, Monitor& monitor) {
 namespace {
 
 /// The members of each group, ascending. Negative groups are left out.
-Csr members(const std::vector<std::int32_t>& group_of, const std::vector<std::int32_t>& sizes) {
-  std::vector<std::int64_t> offsets(sizes.size() + 1);
-  for (std::size_t g = 0; g < sizes.size(); ++g) offsets[g + 1] = offsets[g] + sizes[g];
-  std::vector<std::int64_t> next(offsets.begin(), offsets.end() - 1);
-  std::vector<std::int32_t> entries(static_cast<std::size_t>(offsets.back()));
-  for (std::size_t i = 0; i < group_of.size(); ++i) {
-    if (group_of[i] < 0) continue;
-    const auto g = static_cast<std::size_t>(group_of[i]);
-    entries[static_cast<std::size_t>(next[g]++)] = static_cast<std::int32_t>(i);
-  }
-  return {std::move(offsets), std::move(entries)};
+Lists<std::int32_t> members(const std::vector<std::int32_t>& group_of, std::size_t groups) {
+  return lists_of<std::int32_t>(groups, [&](auto&& put) {
+    for (std::size_t i = 0; i < group_of.size(); ++i) {
+      if (group_of[i] >= 0) put(static_cast<std::size_t>(group_of[i]), static_cast<std::int32_t>(i));
+    }
+  });
 }
 
 }  // namespace
@@ -63,8 +116,8 @@ Csr members(const std::vector<std::int32_t>& group_of, const std::vector<std::in
 Parts::Parts(const CoverState& state, Monitor& monitor)
     : state_(state),
       components_(components(state, monitor)),
-      rows_(members(components_.of_row, components_.rows)),
-      columns_(members(components_.of_column, components_.columns)),
+      rows_(members(components_.of_row, count())),
+      columns_(members(components_.of_column, count())),
       number_(state.cols()) {
   for (std::size_t k = 0; k < count(); ++k) {
     std::int32_t next = 0;

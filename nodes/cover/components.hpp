@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/lists.hpp"
 #include "base/monitor.hpp"
 #include "cover/residual.hpp"
 #include "types/cover_state.hpp"
@@ -46,8 +47,8 @@ class Parts {
  private:
   const CoverState& state_;
   Components components_;
-  Csr rows_, columns_;                // of each component
-  std::vector<std::int32_t> number_;  // of each column in its component
+  Lists<std::int32_t> rows_, columns_;  // of each component
+  std::vector<std::int32_t> number_;    // of each column in its component
 };
 
 }  // namespace ballflow::geometry
