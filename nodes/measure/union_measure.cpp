@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/arctangent.hpp"
+#include "base/lists.hpp"
 #include "power/union_vertices.hpp"
 
 namespace ballflow::geometry {
@@ -154,28 +155,19 @@ class Measure {
 
   void find_arcs() {
     // The triangles at each edge, by the index of the edge; apex and index of the triangle.
-    std::vector<std::int64_t> offsets(complex_.edges.size() + 1, 0);
-    const auto each = [&](auto&& use) {
+    Lists<Wing> wings = lists_of<Wing>(complex_.edges.size(), [&](auto&& put) {
       for (std::size_t t = 0; t < complex_.triangles.size(); ++t) {
         const auto& c = complex_.triangles[t];
-        use(edge_index(c[0], c[1]), Wing{c[2], static_cast<std::int32_t>(t), false});
-        use(edge_index(c[0], c[2]), Wing{c[1], static_cast<std::int32_t>(t), true});
-        use(edge_index(c[1], c[2]), Wing{c[0], static_cast<std::int32_t>(t), false});
+        put(edge_index(c[0], c[1]), Wing{c[2], static_cast<std::int32_t>(t), false});
+        put(edge_index(c[0], c[2]), Wing{c[1], static_cast<std::int32_t>(t), true});
+        put(edge_index(c[1], c[2]), Wing{c[0], static_cast<std::int32_t>(t), false});
       }
-    };
-    each([&](std::size_t edge, const Wing&) { ++offsets[edge + 1]; });
-    for (std::size_t e = 1; e < offsets.size(); ++e) offsets[e] += offsets[e - 1];
-    std::vector<Wing> wings(static_cast<std::size_t>(offsets.back()));
-    std::vector<std::int64_t> next = offsets;
-    each([&](std::size_t edge, const Wing& wing) { wings[static_cast<std::size_t>(next[edge]++)] = wing; });
-
+    });
     for (std::size_t e = 0; e < complex_.edges.size(); ++e) {
       if (e % 1024 == 0) {
         monitor_.step(0.5 + 0.5 * static_cast<double>(e) / static_cast<double>(complex_.edges.size()));
       }
-      const auto first = static_cast<std::size_t>(offsets[e]);
-      arcs_of(complex_.edges[e],
-              std::span(wings).subspan(first, static_cast<std::size_t>(offsets[e + 1]) - first));
+      arcs_of(complex_.edges[e], wings[e]);
     }
   }
 

@@ -206,6 +206,9 @@ class Spreading {
     cosines_of(c, &Vec3::z);
     const double cx = result[c].x, cy = result[c].y, cz = std::sqrt(std::max(0.0, 1 - cx * cx - cy * cy));
     for (Vec3& u : result) u.z = cz > flat ? (u.z - u.x * cx - u.y * cy) / cz : 0;
+    for (Vec3& u : result) {
+      if (!is_finite(u)) u = {};  // of a sphere without a radius, which says nothing
+    }
     return result;
   }
 

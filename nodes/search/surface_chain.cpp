@@ -1,11 +1,11 @@
 #include "search/surface_chain.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <span>
 #include <utility>
 
 #include "base/disjoint_sets.hpp"
+#include "base/lists.hpp"
 
 namespace ballflow::geometry {
 
@@ -26,45 +26,37 @@ struct Side {
 
 class Edges {
  public:
-  Edges(const std::vector<Triangle>& triangles, std::size_t vertices) : first_(vertices + 1, 0) {
-    for_each_side(triangles, [&](std::int32_t smaller, const Side&) { ++first_[at(smaller) + 1]; });
-    std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    sides_.resize(triangles.size() * 3);
-    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-    for_each_side(triangles,
-                  [&](std::int32_t smaller, const Side& side) { sides_[next[at(smaller)]++] = side; });
+  Edges(const std::vector<Triangle>& triangles, std::size_t vertices)
+      : sides_(lists_of<Side>(vertices, [&](auto&& put) {
+          for (std::size_t t = 0; t < triangles.size(); ++t) {
+            for (std::size_t k = 0; k < 3; ++k) {
+              const std::int32_t u = triangles[t][k], v = triangles[t][(k + 1) % 3];
+              put(at(std::min(u, v)), Side{std::max(u, v), static_cast<std::int32_t>(t), u < v});
+            }
+          }
+        })) {
     for (std::size_t v = 0; v < vertices; ++v) {
-      std::sort(sides_.begin() + static_cast<std::ptrdiff_t>(first_[v]),
-                sides_.begin() + static_cast<std::ptrdiff_t>(first_[v + 1]));
+      const std::span<Side> sides = sides_[v];
+      std::sort(sides.begin(), sides.end());
     }
   }
 
   // Calls visit(smaller vertex, larger vertex, sides) for every edge, ascending.
   template <class Visit>
   void for_each(Visit visit) {
-    for (std::size_t v = 0; v + 1 < first_.size(); ++v) {
-      for (std::size_t i = first_[v]; i < first_[v + 1];) {
+    for (std::size_t v = 0; v < sides_.size(); ++v) {
+      const std::span<Side> sides = sides_[v];
+      for (std::size_t i = 0; i < sides.size();) {
         std::size_t j = i + 1;
-        while (j < first_[v + 1] && sides_[j].larger == sides_[i].larger) ++j;
-        visit(static_cast<std::int32_t>(v), sides_[i].larger, std::span<Side>(sides_).subspan(i, j - i));
+        while (j < sides.size() && sides[j].larger == sides[i].larger) ++j;
+        visit(static_cast<std::int32_t>(v), sides[i].larger, sides.subspan(i, j - i));
         i = j;
       }
     }
   }
 
  private:
-  template <class Visit>
-  static void for_each_side(const std::vector<Triangle>& triangles, Visit visit) {
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::int32_t u = triangles[t][k], v = triangles[t][(k + 1) % 3];
-        visit(std::min(u, v), Side{std::max(u, v), static_cast<std::int32_t>(t), u < v});
-      }
-    }
-  }
-
-  std::vector<std::size_t> first_;  // per vertex
-  std::vector<Side> sides_;
+  Lists<Side> sides_;  // of each vertex, the smaller one of the edge
 };
 
 std::int64_t balance(std::span<const Side> sides) {

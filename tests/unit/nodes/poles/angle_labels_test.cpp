@@ -245,6 +245,17 @@ TEST(angle_labels, at_a_crowded_sample_are_the_same_for_any_numbering_and_number
   EXPECT_EQ(labels({permuted, {}}, 2), one);
 }
 
+TEST(angle_labels, at_a_crowded_sample_take_nothing_from_spheres_without_a_radius) {
+  PoleSet poles = voronoi_poles(sphere_with_outlier(300), {});
+  ASSERT_GT(most_entries_at_a_sample(poles), 300u);
+  std::vector<double> radii(poles.radii.begin(), poles.radii.end());
+  for (std::size_t i = 0; i < radii.size(); i += 50) radii[i] = 0;
+  poles.radii = radii;
+  const AngleLabels found = angle_labels(poles, no_monitor());
+  EXPECT_EQ(found.labels.size(), poles.size());
+  for (std::size_t i = 0; i < radii.size(); i += 50) EXPECT_EQ(found.uncertain[i], 0) << i;
+}
+
 TEST(angle_labels, without_an_outside_are_refused) {
   PoleSet poles = voronoi_poles(test::cube().points(), {});
   poles.unbounded = std::vector<std::uint8_t>(poles.size(), 0);
