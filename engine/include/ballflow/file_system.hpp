@@ -15,6 +15,13 @@
 
 namespace ballflow {
 
+/// Where a file system is attached.
+struct Mount {
+  std::string type;     // "nfs4"; empty when nothing is known
+  std::string point;    // "/scratch"
+  std::string options;  // of the mount and of its file system: "rw,noatime,vers=4.2,local_lock=none"
+};
+
 class FileSystem {
  public:
   FileSystem() = default;
@@ -55,7 +62,13 @@ class FileSystem {
   /// Bytes of the whole disk that holds an open folder.
   virtual int capacity(int folder, std::uint64_t& bytes);
 
+  /// The mount that an open folder is in.
+  virtual Mount mount(int folder);
+  /// "<name of the host>-<boot id>": tells this machine, since its start, from every other. It has no '/'.
+  virtual std::string machine();
+
   /// Takes the flock of an open file; -EWOULDBLOCK while another open file holds it. close() gives it back.
+  /// The file must be open for writing: NFS makes byte-range locks of it, which fail otherwise (-EBADF).
   virtual int try_lock(int file);
   virtual bool process_alive(pid_t process);
   /// Nanoseconds since 1970, on the clock that stamps files.

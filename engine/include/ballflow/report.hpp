@@ -15,8 +15,4 @@ Json run_report(const std::string& id, const Dag& dag, const RunResult& result);
 /// What happened to one node: its part of run_report.
 Json node_report(const DagNode& node, const NodeResult& result);
 
-/// Writes a file so that readers see the old or the new content, never a part. Pipes and devices are written
-/// to as they are. Throws Error (code store).
-void write_atomically(const std::string& path, std::string_view content);
-
 }  // namespace ballflow

@@ -8,9 +8,14 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <array>
+#include <cctype>
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <cstring>
+
+#include "base/mounts.hpp"
 
 namespace ballflow {
 namespace {
@@ -23,6 +28,19 @@ auto call(Call function) -> decltype(function()) {
     if (result >= 0) return result;
     if (errno != EINTR) return -errno;
   }
+}
+
+/// The text of a small file of /proc; empty when there is none.
+std::string proc_text(const std::string& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return {};
+  std::string text;
+  std::array<char, 4096> buffer{};
+  for (ssize_t got = 0; (got = call([&] { return ::read(file, buffer.data(), buffer.size()); })) > 0;) {
+    text.append(buffer.data(), static_cast<std::size_t>(got));
+  }
+  ::close(file);
+  return text;
 }
 
 }  // namespace
@@ -115,6 +133,34 @@ int FileSystem::capacity(int folder, std::uint64_t& bytes) {
   const int result = call([&] { return ::fstatvfs(folder, &disk); });
   bytes = result == 0 ? std::uint64_t{disk.f_blocks} * disk.f_frsize : 0;
   return result;
+}
+
+Mount FileSystem::mount(int folder) {
+  constexpr std::string_view label = "mnt_id:";
+  const std::string info = proc_text("/proc/self/fdinfo/" + std::to_string(folder));
+  const std::size_t at = info.find(label);
+  if (at == std::string::npos) return {};
+  const std::size_t begin = info.find_first_not_of(" \t", at + label.size());
+  long id = 0;
+  if (begin == std::string::npos ||
+      std::from_chars(info.data() + begin, info.data() + info.size(), id).ec != std::errc()) {
+    return {};
+  }
+  return find_mount(proc_text("/proc/self/mountinfo"), id).value_or(Mount());
+}
+
+std::string FileSystem::machine() {
+  std::array<char, 256> host{};
+  if (::gethostname(host.data(), host.size() - 1) != 0 || host[0] == '\0') host = {"unknown"};
+  std::string name = host.data();
+  for (char& c : name) {
+    if (c == '/') c = '_';
+  }
+  std::string boot;
+  for (const char c : proc_text("/proc/sys/kernel/random/boot_id")) {
+    if (std::isxdigit(static_cast<unsigned char>(c))) boot += c;
+  }
+  return name + '-' + (boot.empty() ? "0" : boot);
 }
 
 int FileSystem::try_lock(int file) {

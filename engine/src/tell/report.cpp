@@ -1,18 +1,9 @@
 #include "ballflow/report.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-
 #include "ballflow/history.hpp"
 
 namespace ballflow {
 namespace {
-
-namespace fs = std::filesystem;
 
 Json outputs_json(const std::vector<OutputEntry>& outputs) {
   Json json = Json::object();
@@ -137,38 +128,6 @@ Json run_report(const std::string& id, const Dag& dag, const RunResult& result) 
     report["variants"].push_back(std::move(json));
   }
   return report;
-}
-
-void write_atomically(const std::string& named, std::string_view content) {
-  std::error_code ignored;
-  std::string path = named;
-  if (fs::is_symlink(path, ignored)) {  // the link stays
-    if (const fs::path target = fs::canonical(path, ignored); !ignored) path = target.string();
-  }
-  const fs::file_status status = fs::status(path, ignored);
-  const bool special = fs::exists(status) && !fs::is_regular_file(status);  // a pipe, a terminal
-  const std::string temporary = special ? path : path + "." + std::to_string(getpid()) + ".tmp";
-  const auto fail = [&](const char* what) -> Error {
-    const int code = errno;
-    if (!special) unlink(temporary.c_str());
-    return {ExitCode::store, "cannot " + std::string(what) + " " + path + ": " + std::strerror(code),
-            "choose a folder that exists, can be written and has room"};
-  };
-  const int file = open(temporary.c_str(), O_WRONLY | O_CLOEXEC | (special ? 0 : O_CREAT | O_TRUNC), 0666);
-  if (file < 0) throw fail("create");
-  for (std::size_t done = 0; done < content.size();) {
-    const ssize_t n = write(file, content.data() + done, content.size() - done);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) {
-      const int code = errno;
-      close(file);
-      errno = code;
-      throw fail("write");
-    }
-    done += static_cast<std::size_t>(n);
-  }
-  if (close(file) != 0) throw fail("write");
-  if (!special && rename(temporary.c_str(), path.c_str()) != 0) throw fail("replace");
 }
 
 }  // namespace ballflow

@@ -2,7 +2,7 @@
 
 #include "ballflow/dot.hpp"
 #include "ballflow/history.hpp"
-#include "ballflow/report.hpp"
+#include "ballflow/output_file.hpp"
 #include "ballflow/text.hpp"
 #include "commands/commands.hpp"
 #include "commands/viewer_page.hpp"

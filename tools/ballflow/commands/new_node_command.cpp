@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <set>
 
-#include "ballflow/report.hpp"
+#include "ballflow/output_file.hpp"
 #include "ballflow/text.hpp"
 #include "commands/commands.hpp"
 

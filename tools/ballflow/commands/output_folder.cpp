@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "ballflow/report.hpp"
+#include "ballflow/output_file.hpp"
 #include "export/export.hpp"
 #include "terminal/terminal.hpp"
 

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "ballflow/history.hpp"
-#include "ballflow/report.hpp"
+#include "ballflow/output_file.hpp"
 #include "ballflow/text.hpp"
 #include "commands/commands.hpp"
 #include "sample/sample.hpp"

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "ballflow/history.hpp"
-#include "ballflow/report.hpp"
+#include "ballflow/output_file.hpp"
 #include "ballflow/text.hpp"
 #include "commands/commands.hpp"
 #include "report/report_page.hpp"

@@ -11,6 +11,7 @@
 
 #include "ballflow/gc.hpp"
 #include "ballflow/history.hpp"
+#include "ballflow/output_file.hpp"
 #include "ballflow/report.hpp"
 #include "ballflow/text.hpp"
 #include "commands/commands.hpp"

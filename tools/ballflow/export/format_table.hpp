@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "ballflow/artifact.hpp"
+#include "ballflow/output_file.hpp"
 #include "export/formats.hpp"
-#include "export/output_file.hpp"
 #include "show/typed.hpp"
 
 namespace ballflow {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "ballflow/artifact.hpp"
-#include "export/output_file.hpp"
+#include "ballflow/output_file.hpp"
 #include "export/poly_data.hpp"
 
 namespace ballflow {

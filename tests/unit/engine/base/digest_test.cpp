@@ -1,8 +1,15 @@
 #include "ballflow/digest.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 
+#include <span>
 #include <string>
+#include <vector>
+
+#include "base/open_file.hpp"
+#include "faulty_file_system.hpp"
+#include "test_data.hpp"
 
 namespace ballflow {
 
@@ -50,6 +57,51 @@ TEST(checksum, does_not_depend_on_the_pieces) {
       sum.add(text.data() + at, std::min(step, text.size() - at));
     EXPECT_EQ(sum.finish(), checksum_of(text.data(), text.size())) << step;
   }
+}
+
+TEST(sums, of_pieces_are_those_of_the_whole) {
+  std::string text;
+  for (int i = 0; i < 1'000'000; ++i) text += static_cast<char>(i * 31 >> 3);
+  const auto bytes = std::as_bytes(std::span(text));
+  for (const std::size_t cut : {std::size_t{0}, std::size_t{1}, std::size_t{131'072}, text.size()}) {
+    const std::vector<std::span<const std::byte>> pieces{bytes.first(cut), bytes.subspan(cut)};
+    Digest digest, alone;
+    Checksum checksum;
+    ASSERT_TRUE(sum_up(pieces, &digest, &checksum));
+    EXPECT_EQ(digest, sha256(text)) << cut;
+    EXPECT_EQ(checksum, checksum_of(text.data(), text.size())) << cut;
+    ASSERT_TRUE(sum_up(pieces, &alone, nullptr));
+    EXPECT_EQ(alone, digest);
+  }
+}
+
+TEST(sums, of_much_are_given_up_when_asked) {
+  const std::string large(40 << 20, 'x');
+  const std::vector<std::span<const std::byte>> pieces{std::as_bytes(std::span(large))};
+  Digest digest;
+  int looks = 0;
+  EXPECT_FALSE(sum_up(pieces, &digest, nullptr, [&looks] { return ++looks == 2; }));
+  EXPECT_EQ(looks, 2);
+  EXPECT_EQ(digest, Digest());
+}
+
+TEST(sums, of_a_file_stop_beyond_what_was_expected) {
+  const test::TempFolder folder;
+  const std::string content(1'000'000, 'y');
+  test::write_file(folder.file("input"), content);
+  test::FaultyFileSystem files;
+  const auto sum = [&](std::uint64_t at_most, Digest& digest) {
+    const OpenFile file(files, files.open(FileSystem::working_folder, folder.file("input"), O_RDONLY, 0));
+    return sha256_of_file(files, file.get(), at_most, digest);
+  };
+  Digest digest;
+  EXPECT_EQ(sum(content.size(), digest), 1'000'000);
+  EXPECT_EQ(digest, sha256(content));
+  const std::int64_t read = sum(10, digest);
+  EXPECT_GT(read, 10) << "so that the caller sees that the file has grown";
+  EXPECT_LT(read, 1'000'000);
+  files.fault = [](const std::string& call) { return call == "read" ? -EIO : 0; };
+  EXPECT_EQ(sum(content.size(), digest), -EIO);
 }
 
 }  // namespace ballflow

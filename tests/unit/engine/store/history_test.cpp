@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "ballflow/gc.hpp"
+#include "ballflow/output_file.hpp"
 #include "ballflow/report.hpp"
 #include "child_process.hpp"
 #include "faulty_file_system.hpp"

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "ballflow/node_decl.hpp"
+#include "ballflow/output_file.hpp"
 #include "base/vec3.hpp"
-#include "export/output_file.hpp"
 
 namespace ballflow {
 

@@ -1,8 +1,8 @@
 // Pieces that several text formats share.
 #pragma once
 
+#include "ballflow/output_file.hpp"
 #include "base/vec3.hpp"
-#include "export/output_file.hpp"
 
 namespace ballflow {
 

@@ -1,22 +1,26 @@
-// A file that appears whole or not at all.
+// A file of the user that appears whole or not at all.
 #pragma once
 
 #include <bit>
 #include <concepts>
 #include <cstddef>
-#include <span>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <type_traits>
 
 namespace ballflow {
 
-/// Collects a file in a temporary neighbor of `path`, which takes its place on commit. A path that is no
-/// regular file (a pipe, /dev/stdout) is written directly. Every function throws Error (code store) when the
-/// operating system refuses.
+class FileSystem;
+
+/// Collects a file in a temporary neighbour of `path` (base/draft.hpp), which takes its place on commit:
+/// readers see the old or the new content, never a part, and without a commit nothing has happened.
+///
+/// A path that is a link stays one: what it points to is replaced. A pipe or a device (/dev/stdout) is
+/// written as it is, in order. Every function throws Error (code store) when the operating system refuses.
 class OutputFile {
  public:
-  explicit OutputFile(const std::string& path);
+  explicit OutputFile(const std::string& path, std::shared_ptr<FileSystem> files = {});
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
@@ -47,13 +51,18 @@ class OutputFile {
   void commit();
 
  private:
+  struct Target;
+
   void flush();
   void write_through(const char* data, std::size_t size);
-  [[noreturn]] void fail(int error) const;
+  [[noreturn]] void fail(int negative_errno) const;
 
-  std::string path_, temporary_;  // temporary_ is empty when the path is written directly
+  std::string path_;  // of what is replaced
+  std::unique_ptr<Target> target_;
   std::string buffer_;
-  int file_ = -1;
 };
+
+/// The same for content that is there already.
+void write_atomically(const std::string& path, std::string_view content);
 
 }  // namespace ballflow
