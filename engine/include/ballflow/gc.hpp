@@ -18,6 +18,12 @@
 // What stays: what a pin names, with the action entries that name it, and what live runs may use. A live run
 // holds a Lease; everything used since an hour before the oldest live lease stays. (Were an artifact lost
 // nevertheless, because a file system cannot lock, it would be made again: collection never harms a result.)
+//
+// A lease that is locked is live. On a mount whose locks stay on their host (nfs with nolock or
+// local_lock=flock) those of other hosts always look free; there a lease of another host counts as live for
+// as long as its file is there, however old it is, and what was used within the last hour stays in any case.
+// A run removes its lease at its end; what a killed run left goes with the next collection on its own host,
+// or by the user's hand.
 #pragma once
 
 #include <cstdint>
@@ -32,6 +38,8 @@
 namespace ballflow {
 
 /// Says that a run is alive. Held by an flock, which the kernel frees when the process dies.
+class OpenFile;
+
 class Lease {
  public:
   /// Null when the store is read-only or cannot lock.
@@ -44,7 +52,7 @@ class Lease {
   Lease() = default;
   std::shared_ptr<Store> store_;
   std::string name_;
-  int file_ = -1;
+  std::unique_ptr<OpenFile> file_;
 };
 
 /// An artifact in the store.
@@ -88,13 +96,23 @@ struct CollectOptions {
   bool dry_run = false;
   bool wait = true;  // while another process collects; else say `busy`
 };
+/// A lease of another host, where locks say nothing about that host: its run may be alive or dead.
+struct UnseenRun {
+  std::string file;        // "leases/<host>-..."
+  std::string host;        // empty when the name does not say it
+  std::int64_t since = 0;  // nanoseconds since 1970
+};
 struct Collected {
   bool busy = false;                                // another process is at it; nothing was done
   bool complete = false;                            // at most `limit` is left
   std::uint64_t bytes_before = 0, bytes_after = 0;  // of everything that counts, in blocks of 4 KiB
   std::uint64_t artifacts = 0, actions = 0, memos = 0, quarantined = 0, runs = 0;  // removed, or would be
   std::uint64_t pinned_bytes = 0;                                                  // of pinned artifacts
-  std::uint64_t live_runs = 0;
+  std::uint64_t live_runs = 0;                                                     // `unseen` are among them
+  std::vector<UnseenRun> unseen;
+  /// Why locks exclude processes of this host only ("/scratch is mounted as nfs4 with local_lock=flock");
+  /// empty when they reach as far as the store.
+  std::string locks_stay_here;
   std::vector<Digest> removed;  // the artifacts, in order
 };
 /// Counts what is in the store and removes what is too much. Safe beside any number of runs and collectors,
@@ -119,7 +137,8 @@ class KeepWithin {
   std::uint64_t limit_;
 };
 
-/// Digests of artifacts in the store (or of pins) that start with these hexadecimal digits, sorted.
+/// Digests of artifacts in the store (or of pins) that start with these hexadecimal digits, sorted. A whole
+/// digest is looked up without listing a folder.
 std::vector<Digest> find_artifacts(Store& store, std::string_view prefix);
 std::vector<Digest> find_pins(Store& store, std::string_view prefix);
 /// Throws Error (code store) when the store cannot be written.

@@ -135,9 +135,6 @@ class Store {
   /// SHA-256 of a file's content, memoised by device, inode, size, mtime and ctime (not trusted when the
   /// file is younger than 2 s). Throws Error when it is no regular file, cannot be read or keeps changing.
   Digest file_digest(const std::string& path);
-  /// Whether files/<name> is there and undamaged.
-  bool memo_intact(const Digest& name);
-
   /// Serialises computations of one key between processes: blocks until this process holds the lock of the
   /// key (flock). `give_up` is polled while it waits. Null when it gave up, when the store is read-only or
   /// cannot lock: then compute without.
@@ -160,9 +157,9 @@ class Store {
   /// Adds what was written through this store to `usage`; happens by itself now and then, and at the end.
   void account();
 
-  const std::string& root() const { return root_; }
-  bool read_only() const { return read_only_; }
-  const std::string& why() const { return why_; }  // why it is read-only or absent
+  const std::string& root() const;  // its absolute path; empty when there is no store
+  bool read_only() const;
+  const std::string& why() const;  // why it is read-only or absent
   /// The first failure to write since open ("cannot write cas/...: No space left on device"), or empty.
   std::string trouble() const;
 
@@ -171,9 +168,7 @@ class Store {
 
  private:
   Store() = default;
-  std::string root_, why_;
-  bool read_only_ = false;
-  std::shared_ptr<StoreParts> parts_;
+  std::unique_ptr<StoreParts> parts_;
 };
 
 }  // namespace ballflow

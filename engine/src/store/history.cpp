@@ -11,17 +11,17 @@
 #include <sstream>
 
 #include "ballflow/error.hpp"
+#include "base/draft.hpp"
 #include "base/json_text.hpp"
 #include "base/quote.hpp"
-#include "store/run_folders.hpp"
-#include "store/store_folders.hpp"
+#include "store/parts.hpp"
+#include "store/run_records.hpp"
 
 namespace ballflow {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* report_name = "report.json";
 constexpr const char* manifests_name = "manifests.json";
 constexpr std::size_t kept_runs = 200,
                       most_runs = 220;  // removed in bunches: looking at 200 folders takes time
@@ -52,31 +52,11 @@ bool is_run_id(const std::string& name) {
 
 /// Names of runs, newest first; also of those that are being recorded.
 std::vector<std::string> run_ids(const StoreFolders& folders) {
-  std::vector<std::string> names;
-  if (folders.runs >= 0) folders.files->list(folders.runs, names);
+  std::vector<std::string> names = names_in(folders, folders.runs);
   names.erase(std::remove_if(names.begin(), names.end(), [](const auto& name) { return !is_run_id(name); }),
               names.end());
-  std::sort(names.begin(), names.end(), std::greater<>());
+  std::reverse(names.begin(), names.end());
   return names;
-}
-
-/// A file of a run, at most `limit` bytes of it; false when it is not there or cannot be trusted.
-bool read_run_file(const StoreFolders& folders, const std::string& id, const char* name, std::size_t limit,
-                   std::string& text) {
-  const OpenFile folder(*folders.files, folders.files->open(folders.runs, id, folder_flags));
-  if (!folder.is_open()) return false;
-  struct stat status {};
-  if (folders.files->status(folder.get(), status) < 0 || !distrust(status).empty()) return false;
-  const OpenFile file(*folders.files, folders.files->open(folder.get(), name, file_flags));
-  if (!file.is_open() || folders.files->status(file.get(), status) < 0) return false;
-  if (!S_ISREG(status.st_mode) || !distrust(status).empty()) return false;
-  text.assign(std::min(limit, static_cast<std::size_t>(status.st_size)), '\0');
-  for (std::size_t have = 0; have < text.size();) {
-    const ssize_t got = folders.files->read(file.get(), text.data() + have, text.size() - have);
-    if (got <= 0) return false;
-    have += static_cast<std::size_t>(got);
-  }
-  return true;
 }
 
 /// Reads the members before "nodes" and "variants", so that a list of runs need not read reports of
@@ -187,43 +167,6 @@ std::string text_of(const AnyJson& json, int indent) {
 
 }  // namespace
 
-std::vector<RunFolder> run_folders(const StoreFolders& folders) {
-  std::vector<RunFolder> found;
-  std::vector<std::string> names;
-  if (folders.runs >= 0) folders.files->list(folders.runs, names);
-  for (const std::string& name : names) {
-    const OpenFile folder(*folders.files, folders.files->open(folders.runs, name, folder_flags));
-    struct stat status {};
-    if (!folder.is_open() || folders.files->status(folder.get(), status) < 0) continue;
-    RunFolder& run = found.emplace_back();
-    run.name = name;
-    run.ended = nanoseconds(status.st_mtim);
-    std::vector<std::string> files;
-    folders.files->list(folder.get(), files);
-    for (const std::string& file : files) {
-      if (folders.files->status(folder.get(), file, status) == 0)
-        run.bytes += disk_bytes(static_cast<std::uint64_t>(status.st_size));
-    }
-  }
-  std::sort(found.begin(), found.end(), [](const RunFolder& a, const RunFolder& b) {
-    return a.ended != b.ended ? a.ended < b.ended : a.name < b.name;
-  });
-  return found;
-}
-
-void remove_run(const StoreFolders& folders, const std::string& name) {
-  {
-    const OpenFile folder(*folders.files, folders.files->open(folders.runs, name, folder_flags));
-    if (!folder.is_open()) return;
-    // The report first: without it the run does not count.
-    folders.files->remove(folder.get(), report_name);
-    std::vector<std::string> files;
-    folders.files->list(folder.get(), files);
-    for (const std::string& file : files) folders.files->remove(folder.get(), file);
-  }
-  folders.files->remove_folder(folders.runs, name);
-}
-
 std::string new_run_id(const std::string& graph_file) {
   using namespace std::chrono;
   const auto now = duration_cast<milliseconds>(system_clock::now().time_since_epoch()).count();
@@ -247,16 +190,15 @@ bool save_run(Store& store, const std::string& id, const Manifests& manifests, c
   const nlohmann::json by_path = manifests;  // not ordered_json: that looks a name up by linear search
   const bool saved =
       store.put_run(id, {{manifests_name, text_of(by_path, -1)}, {report_name, text_of(report, 1)}});
-  const StoreFolders folders(store);
-  std::vector<std::string> names;
-  if (folders.files->list(folders.runs, names) < 0 || names.size() <= most_runs) return saved;
+  const StoreFolders& folders = store.parts().folders;
+  if (names_in(folders, folders.runs).size() <= most_runs) return saved;
   const std::vector<RunFolder> all = run_folders(folders);
   for (std::size_t i = 0; i + kept_runs < all.size(); ++i) remove_run(folders, all[i].name);
   return saved;
 }
 
 std::vector<RunInfo> list_runs(Store& store, std::size_t limit) {
-  const StoreFolders folders(store);
+  const StoreFolders& folders = store.parts().folders;
   std::vector<RunInfo> runs;
   for (const std::string& id : run_ids(folders)) {
     if (runs.size() >= limit) break;
@@ -266,7 +208,7 @@ std::vector<RunInfo> list_runs(Store& store, std::size_t limit) {
 }
 
 RunRecord find_run(Store& store, const std::string& name, const std::string& graph_file) {
-  const StoreFolders folders(store);
+  const StoreFolders& folders = store.parts().folders;
   std::vector<std::string> ids = run_ids(folders);
   const auto recorded = [&](const std::string& id) { return read_info(folders, id).has_value(); };
   const std::string where = store.root().empty() ? "there is no cache" : "the history of " + store.root();
@@ -316,11 +258,11 @@ RunRecord find_run(Store& store, const std::string& name, const std::string& gra
 }
 
 Manifests run_manifests(Store& store, const std::string& id) {
-  return is_run_id(id) ? read_manifests(StoreFolders(store), id) : Manifests();
+  return is_run_id(id) ? read_manifests(store.parts().folders, id) : Manifests();
 }
 
 Manifests latest_manifests(Store& store, const std::string& graph_file) {
-  const StoreFolders folders(store);
+  const StoreFolders& folders = store.parts().folders;
   const std::string mark = "-" + graph_mark(graph_file) + "-";
   for (const std::string& id : run_ids(folders)) {
     if (id.compare(time_size, mark.size(), mark) != 0) continue;

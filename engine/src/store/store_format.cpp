@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "store/store_folders.hpp"
+#include "store/folders.hpp"
 
 namespace ballflow {
 namespace {

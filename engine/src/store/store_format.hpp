@@ -25,6 +25,8 @@
 
 namespace ballflow {
 
+inline constexpr std::uint64_t entry_limit = 64u << 20;  // bytes; no honest entry comes near it
+
 std::string encode(const Digest& key, const ActionEntry& entry);
 
 /// Nothing when the bytes break the grammar or belong to another key.

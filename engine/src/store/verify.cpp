@@ -5,40 +5,36 @@
 
 #include "ballflow/error.hpp"
 #include "ballflow/gc.hpp"
-#include "store/store_folders.hpp"
+#include "store/parts.hpp"
 
 namespace ballflow {
 namespace {
 
 /// Everything in the subfolders of cas/, ac/ or files/ with a name that the store gives, whatever it is.
 template <class Visit>
-void for_each_below(const StoreFolders& folders, int top, Visit visit) {
-  FileSystem& files = *folders.files;
-  std::vector<std::string> shards, names;
-  if (top >= 0) files.list(top, shards);
-  std::sort(shards.begin(), shards.end());
-  for (const std::string& shard : shards) {
-    const OpenFile folder(files, files.open(top, shard, folder_flags));
+void for_each_below(const StoreFolders& folders, const OpenFile& top, Visit visit) {
+  for (const std::string& shard : names_in(folders, top)) {
+    const OpenFile folder(*folders.files, folders.files->open(top.get(), shard, folder_flags));
     if (shard.size() != 2 || !folder.is_open()) continue;
-    files.list(folder.get(), names);
-    std::sort(names.begin(), names.end());
-    for (const std::string& name : names) {
-      if (const auto digest = Digest::from_hex(shard + name)) visit(folder.get(), *digest);
+    for (const std::string& name : names_in(folders, folder)) {
+      if (const auto digest = Digest::from_hex(shard + name)) visit(folder, *digest);
     }
   }
 }
 
 class Verifier {
  public:
-  Verifier(Store& store, bool full) : store_(store), folders_(store), full_(full) {}
+  Verifier(StoreParts& store, bool full) : store_(store), folders_(store.folders), full_(full) {}
 
   Verified run() {
-    for_each_below(folders_, folders_.ac, [this](int shard, const Digest& key) { check_action(shard, key); });
+    for_each_below(folders_, folders_.ac,
+                   [this](const OpenFile& shard, const Digest& key) { check_action(shard, key); });
     for_each_below(folders_, folders_.cas,
-                   [this](int shard, const Digest& name) { check_artifact(shard, name); });
-    for_each_below(folders_, folders_.memos, [this](int shard, const Digest& name) {
+                   [this](const OpenFile& shard, const Digest& name) { check_artifact(shard, name); });
+    for_each_below(folders_, folders_.memos, [this](const OpenFile& shard, const Digest& name) {
       ++result_.memos;
-      if (!store_.memo_intact(name) && exists(shard, name)) report("files", shard, name, "is damaged");
+      if (!store_.file_digests.intact(name) && exists(shard, name))
+        report("files", shard, name, "is damaged");
     });
     for (const auto& [key, outputs] : actions_) {
       const auto there = [this](const OutputEntry& output) { return good_.count(output.digest) != 0; };
@@ -48,23 +44,19 @@ class Verifier {
   }
 
  private:
-  bool exists(int shard, const Digest& name) const {  // it may have been collected meanwhile
+  bool exists(const OpenFile& shard, const Digest& name) const {  // it may have been collected meanwhile
     struct stat status {};
-    return folders_.files->status(shard, rest_of(name.hex()), status) == 0;
+    return folders_.files->status(shard.get(), rest_of(name.hex()), status) == 0;
   }
 
-  void report(const std::string& folder, int shard, const Digest& name, const std::string& what) {
+  void report(const std::string& folder, const OpenFile& shard, const Digest& name, const std::string& what) {
     const std::string hex = name.hex();
-    Finding finding{folder + '/' + shard_of(hex) + '/' + rest_of(hex), what, false};
-    if (folders_.writing && folders_.quarantine >= 0) {
-      finding.moved = folders_.files->rename(shard, rest_of(hex), folders_.quarantine,
-                                             hex + '-' + random_hex(), true) == 0;
-    }
-    result_.bad.push_back(std::move(finding));
+    const bool moved = to_quarantine(folders_, shard, hex);
+    result_.bad.push_back({folder + '/' + shard_of(hex) + '/' + rest_of(hex), what, moved});
   }
 
-  void check_action(int shard, const Digest& key) {
-    const auto entry = store_.peek_action(key);
+  void check_action(const OpenFile& shard, const Digest& key) {
+    const auto entry = store_.actions.peek(key);
     if (!entry) {
       if (exists(shard, key)) report("ac", shard, key, "is damaged, or no action entry for this key");
       return;
@@ -74,10 +66,10 @@ class Verifier {
     for (const OutputEntry& output : entry->outputs) producers_[output.digest].push_back(key);
   }
 
-  void check_artifact(int shard, const Digest& name) {
+  void check_artifact(const OpenFile& shard, const Digest& name) {
     const std::string hex = name.hex();
     struct stat status {};
-    const OpenFile file(*folders_.files, folders_.files->open(shard, rest_of(hex), file_flags));
+    const OpenFile file(*folders_.files, folders_.files->open(shard.get(), rest_of(hex), file_flags));
     if (file.get() == -ELOOP) return report("cas", shard, name, "is a symbolic link");
     if (file.get() == -EACCES) return report("cas", shard, name, "cannot be read");
     if (!file.is_open()) return;  // collected meanwhile, or no descriptors left
@@ -109,10 +101,7 @@ class Verifier {
   bool agrees(const Digest& key, const Digest& name, const Artifact& artifact) const {
     const auto& outputs = actions_.at(key);
     return std::all_of(outputs.begin(), outputs.end(), [&](const OutputEntry& output) {
-      return output.digest != name ||
-             (output.bytes == artifact.file_size() && output.checksum == artifact.checksum() &&
-              output.type == artifact.type() && output.type_version == artifact.version() &&
-              output.summary == artifact.summary());
+      return output.digest != name || describes(output, artifact);
     });
   }
 
@@ -121,13 +110,13 @@ class Verifier {
     for (const Digest& key : producers_.at(name)) {
       if (agrees(key, name, artifact)) continue;
       const OpenFile shard(*folders_.files,
-                           folders_.files->open(folders_.ac, shard_of(key.hex()), folder_flags));
-      if (shard.is_open()) report("ac", shard.get(), key, "describes another artifact than the one it names");
+                           folders_.files->open(folders_.ac.get(), shard_of(key.hex()), folder_flags));
+      if (shard.is_open()) report("ac", shard, key, "describes another artifact than the one it names");
     }
   }
 
-  Store& store_;
-  const StoreFolders folders_;
+  StoreParts& store_;
+  const StoreFolders& folders_;
   const bool full_;
   Verified result_;
   std::map<Digest, std::vector<OutputEntry>> actions_;
@@ -137,6 +126,6 @@ class Verifier {
 
 }  // namespace
 
-Verified verify(Store& store, bool full) { return Verifier(store, full).run(); }
+Verified verify(Store& store, bool full) { return Verifier(store.parts(), full).run(); }
 
 }  // namespace ballflow

@@ -49,6 +49,19 @@ std::shared_ptr<Store> existing(const Common& common) {
   return nullptr;
 }
 
+/// Leases of other hosts, where this one cannot see whether their runs live.
+void say_what_cannot_be_seen(const Store& store, const Collected& collected) {
+  if (collected.unseen.empty()) return;
+  std::printf(
+      "%s, so runs of other hosts cannot be seen. These count as live, and what was used since stays:\n",
+      collected.locks_stay_here.c_str());
+  for (const UnseenRun& run : collected.unseen) {
+    std::printf("  %s/%s (%s, began %s)\n", store.root().c_str(), run.file.c_str(),
+                run.host.empty() ? "host unknown" : ("host " + run.host).c_str(), ago(run.since).c_str());
+  }
+  std::printf("remove the file of a run that is dead, or mount the folder so that locks reach all hosts\n");
+}
+
 int show_statistics(const Common& common) {
   const auto store = existing(common);
   if (store == nullptr) return 0;
@@ -65,7 +78,10 @@ int show_statistics(const Common& common) {
       {"run records", count(s.runs)},
   };
   if (store->read_only()) rows.push_back({"read only", store->why()});
+  if (!counted.locks_stay_here.empty())
+    rows.push_back({"locks", "of this host only: " + counted.locks_stay_here});
   print_table(rows);
+  say_what_cannot_be_seen(*store, counted);
   return 0;
 }
 
@@ -158,6 +174,10 @@ int collect_garbage(const Common& common, const std::string& size, bool dry_run)
     std::printf("more than the limit is left: %s pinned, %s live run%s\n",
                 size_text(done.pinned_bytes).c_str(), count(done.live_runs).c_str(),
                 done.live_runs == 1 ? "" : "s");
+    if (!done.locks_stay_here.empty()) {
+      std::printf("what was used within the last hour stays: %s\n", done.locks_stay_here.c_str());
+    }
+    say_what_cannot_be_seen(*store, done);
   }
   return 0;
 }

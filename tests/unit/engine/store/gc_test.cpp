@@ -1,107 +1,14 @@
 // What is collected and in which order, what stays, and what happens to collectors that meet or die.
-#include "ballflow/gc.hpp"
-
-#include <fcntl.h>
-#include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
-#include <filesystem>
-#include <random>
-#include <set>
 #include <thread>
 
 #include "ballflow/error.hpp"
-#include "child_process.hpp"
-#include "faulty_file_system.hpp"
-#include "probe.hpp"
-#include "test_data.hpp"
+#include "gc_fixture.hpp"
 
 namespace ballflow {
-namespace {
-
-namespace fs = std::filesystem;
-using namespace std::chrono_literals;
-using test::action_for;
-using test::entry_for;
-using test::FaultyFileSystem;
-using test::make_probe;
-using test::place_of;
-
-constexpr std::uint64_t block = 4096;
-constexpr std::int64_t hour = std::int64_t{3600} * 1'000'000'000;
-
-Digest key_of(int i) { return sha256("key " + std::to_string(i)); }
-
-std::int64_t modified(const std::string& file) {
-  struct stat status {};
-  EXPECT_EQ(::stat(file.c_str(), &status), 0) << file;
-  return std::int64_t{status.st_mtim.tv_sec} * 1'000'000'000 + status.st_mtim.tv_nsec;
-}
-
-class GcTest : public ::testing::Test {
- protected:
-  std::shared_ptr<Store> open() const { return Store::open({root}, files); }
-
-  /// An artifact of `blocks` blocks on the disk, made by an action that took `seconds` and was last used
-  /// `hours` ago.
-  Digest put(int i, std::uint64_t blocks, double seconds, double hours) {
-    const auto store = open();
-    const ArtifactPtr artifact = make_probe(i, (blocks * block - 1000) / 9);
-    EXPECT_EQ((artifact->file_size() + block - 1) / block, blocks);
-    ActionEntry entry = action_for(*artifact);
-    entry.seconds = seconds;
-    EXPECT_TRUE(store->put_blob(*artifact, false));
-    EXPECT_TRUE(store->put_action(key_of(i), entry));
-    age(place_of(root, "cas", artifact->digest()), hours);
-    age(place_of(root, "ac", key_of(i)), hours);
-    return artifact->digest();
-  }
-  static void age(const std::string& file, double hours) {
-    const auto nanoseconds = static_cast<std::int64_t>(hours * static_cast<double>(hour));
-    const std::int64_t time = FileSystem().now() - nanoseconds;
-    const timespec times[2] = {{0, UTIME_OMIT}, {time / 1'000'000'000, time % 1'000'000'000}};
-    ASSERT_EQ(::utimensat(AT_FDCWD, file.c_str(), times, 0), 0);
-  }
-  bool has(const Digest& digest) const { return fs::exists(place_of(root, "cas", digest)); }
-  bool has_action(int i) const { return fs::exists(place_of(root, "ac", key_of(i))); }
-  /// The sizes of all files that count, found without the store.
-  std::uint64_t on_disk() const {
-    std::uint64_t sum = 0;
-    for (const char* top : {"cas", "ac", "files", "quarantine"}) {
-      for (const auto& file : fs::recursive_directory_iterator(root + "/" + top)) {
-        if (file.is_regular_file()) sum += (file.file_size() + block - 1) / block * block;
-      }
-    }
-    return sum;
-  }
-  std::set<std::string> everything() const {
-    std::set<std::string> paths;
-    for (const char* top : {"cas", "ac", "files", "quarantine", "pins"}) {
-      for (const auto& file : fs::recursive_directory_iterator(root + "/" + top)) paths.insert(file.path());
-    }
-    return paths;
-  }
-  std::vector<Digest> order() const {
-    std::vector<Digest> digests;
-    for (const CachedArtifact& artifact : read_contents(*open()).artifacts)
-      digests.push_back(artifact.digest);
-    return digests;
-  }
-  Collected collect_to(std::uint64_t limit, bool dry_run = false) const {
-    return collect(*open(), {limit, limit, dry_run, true});
-  }
-
-  const test::TempFolder folder;
-  const std::string root = folder.file("cache");
-  const std::shared_ptr<FaultyFileSystem> files = std::make_shared<FaultyFileSystem>();
-};
-
-}  // namespace
 
 TEST_F(GcTest, keeps_everything_below_the_limit) {
   for (int i = 0; i < 5; ++i) put(i, 2, 1, i);
@@ -246,6 +153,37 @@ TEST_F(GcTest, pins_stay_with_their_entries_until_they_are_let_go) {
   EXPECT_FALSE(has(pinned));
 }
 
+TEST_F(GcTest, whole_digests_are_looked_up_without_listing_a_folder) {
+  std::vector<Digest> all;
+  for (int i = 0; i < 40; ++i) all.push_back(put(i, 1, 1, 1));
+  const auto store = open();
+  pin(*store, all[3]);
+  files->reset_counts();
+  EXPECT_EQ(find_artifacts(*store, all[7].hex()), std::vector<Digest>{all[7]});
+  EXPECT_TRUE(find_artifacts(*store, key_of(1).hex()).empty());
+  EXPECT_EQ(find_pins(*store, all[3].hex()), std::vector<Digest>{all[3]});
+  EXPECT_TRUE(find_pins(*store, all[7].hex()).empty());
+  EXPECT_EQ(files->count("list"), 0);
+
+  EXPECT_EQ(find_artifacts(*store, all[7].hex().substr(0, 6)), std::vector<Digest>{all[7]});
+  EXPECT_EQ(files->count("list"), 1) << "one subfolder";
+  std::sort(all.begin(), all.end());
+  EXPECT_EQ(find_artifacts(*store, ""), all);
+  for (const int digits : {1, 2, 3}) {
+    std::vector<Digest> expected;
+    const std::string prefix = all[0].hex().substr(0, static_cast<std::size_t>(digits));
+    for (const Digest& digest : all) {
+      if (digest.hex().starts_with(prefix)) expected.push_back(digest);
+    }
+    EXPECT_EQ(find_artifacts(*store, prefix), expected) << digits;
+  }
+  for (const std::string& odd :
+       {all[0].hex() + "0", std::string("../../../x"), std::string("zz"), std::string(64, 'g')}) {
+    EXPECT_TRUE(find_artifacts(*store, odd).empty()) << odd;
+    EXPECT_TRUE(find_pins(*store, odd).empty()) << odd;
+  }
+}
+
 TEST_F(GcTest, dry_run_removes_nothing_and_tells_what_would_go) {
   for (int i = 0; i < 8; ++i) put(i, 2, i, 8 - i);
   test::write_file(root + "/quarantine/bad", "bad");
@@ -259,78 +197,6 @@ TEST_F(GcTest, dry_run_removes_nothing_and_tells_what_would_go) {
   EXPECT_EQ(done.removed, told.removed);
   EXPECT_EQ(done.bytes_after, told.bytes_after);
   EXPECT_EQ(done.actions, told.actions);
-}
-
-TEST_F(GcTest, what_a_live_run_may_use_stays) {
-  const Digest stale = put(1, 2, 1, 30), recent = put(2, 2, 1, 0.5);
-  const pid_t run = start([&] {
-    const auto store = open();
-    const auto lease = Lease::take(store);
-    if (lease == nullptr) ::_exit(1);
-    test::write_file(folder.file("started"), "");
-    for (;;) ::pause();
-  });
-  while (!fs::exists(folder.file("started"))) std::this_thread::sleep_for(1ms);
-  const Digest made = put(3, 2, 0, 0);
-  const Collected done = collect_to(0);
-  EXPECT_FALSE(done.complete);
-  EXPECT_EQ(done.live_runs, 1u);
-  EXPECT_FALSE(has(stale));
-  EXPECT_TRUE(has(recent)) << "the run may have found it without touching it";
-  EXPECT_TRUE(has(made)) << "however cheap it is";
-
-  ::kill(run, SIGKILL);
-  finish(run);
-  EXPECT_TRUE(collect_to(0).complete) << "the kernel freed the lease";
-  EXPECT_FALSE(has(recent));
-  EXPECT_TRUE(fs::is_empty(root + "/leases"));
-}
-
-TEST_F(GcTest, a_lease_ends_with_its_object) {
-  const Digest recent = put(1, 2, 1, 0.5);
-  const auto store = open();
-  auto lease = Lease::take(store);
-  ASSERT_NE(lease, nullptr);
-  EXPECT_EQ(collect_to(0).live_runs, 1u);
-  EXPECT_TRUE(has(recent));
-  lease.reset();
-  collect_to(0);
-  EXPECT_FALSE(has(recent));
-}
-
-TEST_F(GcTest, an_old_artifact_that_a_run_finds_again_stays) {
-  const Digest found = put(1, 2, 1, 300);
-  const auto store = open();
-  const auto lease = Lease::take(store);
-  ASSERT_TRUE(store->find_action(key_of(1)));
-  collect_to(0);
-  EXPECT_TRUE(has(found));
-}
-
-TEST_F(GcTest, what_is_used_while_a_collector_thinks_stays) {
-  const Digest first = put(1, 1, 0, 30), second = put(2, 1, 1, 20);
-  const auto user = Store::open({root});  // of another process
-  bool used = false;
-  // As the collector takes the lock of leases it has decided already.
-  files->fault = [&](const std::string& call) {
-    if (call == "remove" && !used) {
-      used = true;
-      user->find_action(key_of(2));
-    }
-    return 0;
-  };
-  collect(*open(), {3 * block, 0, false, true});
-  ASSERT_TRUE(used);
-  EXPECT_FALSE(has(first));
-  EXPECT_TRUE(has(second));
-}
-
-TEST_F(GcTest, without_locks_there_are_no_leases_and_collection_goes_on) {
-  put(1, 2, 1, 5);
-  files->fault = [](const std::string& call) { return call == "try_lock" ? -ENOLCK : 0; };
-  EXPECT_EQ(Lease::take(open()), nullptr);
-  EXPECT_TRUE(collect_to(0).complete);
-  EXPECT_EQ(on_disk(), 0u);
 }
 
 TEST_F(GcTest, a_store_that_cannot_be_written_is_left_alone) {
@@ -521,16 +387,6 @@ TEST_F(GcTest, a_killed_collector_leaves_a_right_cache) {
   EXPECT_GT(kills, 8);
 }
 
-TEST_F(GcTest, lock_files_of_the_dead_go_and_of_the_living_stay) {
-  const auto store = open();
-  test::write_file(root + "/locks/" + key_of(1).hex(), "");
-  const auto lock = store->lock(key_of(2), {});
-  ASSERT_NE(lock, nullptr);
-  collect_to(no_limit);
-  EXPECT_FALSE(fs::exists(root + "/locks/" + key_of(1).hex()));
-  EXPECT_TRUE(fs::exists(root + "/locks/" + key_of(2).hex()));
-}
-
 TEST_F(GcTest, default_limit_is_a_tenth_of_the_disk_and_not_more_than_20_gib) {
   const auto store = open();
   files->disk = std::uint64_t{50} << 30;
@@ -553,111 +409,6 @@ TEST(cache_size, reads_what_people_write) {
        {"", "G", "-1", "5X", "5GBB", "5 G", "inf", "nan", "1e300", "99999999999T", "5G ", "-0"}) {
     EXPECT_FALSE(parse_size(bad)) << bad;
   }
-}
-
-TEST_F(GcTest, verify_finds_nothing_in_a_good_cache) {
-  for (int i = 0; i < 6; ++i) put(i, 2, 1, 1);
-  open()->put_action(key_of(99), action_for(*make_probe(99)));  // without its artifact, which is no fault
-  const auto before = everything();
-  for (const bool full : {false, true}) {
-    const Verified found = verify(*open(), full);
-    EXPECT_TRUE(found.bad.empty());
-    EXPECT_EQ(found.artifacts, 6u);
-    EXPECT_EQ(found.actions, 7u);
-    EXPECT_EQ(found.without_artifacts, 1u);
-  }
-  EXPECT_EQ(everything(), before);
-}
-
-TEST_F(GcTest, verify_moves_what_is_damaged_to_quarantine_and_a_run_heals_it) {
-  const auto damage = [](const std::string& file, auto change) {
-    std::string bytes = test::read_file(file);
-    change(bytes);
-    fs::remove(file);
-    test::write_file(file, bytes);
-    fs::permissions(file, fs::perms(0444));
-  };
-  const auto flip_last = [](std::string& bytes) { bytes.back() = static_cast<char>(bytes.back() ^ 1); };
-  const auto cut = [](std::string& bytes) { bytes.resize(bytes.size() / 2); };
-  std::vector<Digest> digests;
-  for (int i = 0; i < 6; ++i) digests.push_back(put(i, 2, 1, 1));
-  damage(place_of(root, "cas", digests[0]), flip_last);
-  damage(place_of(root, "cas", digests[1]), cut);
-  damage(place_of(root, "ac", key_of(2)), flip_last);
-  damage(place_of(root, "ac", key_of(3)), [](std::string& bytes) { bytes.clear(); });
-  fs::remove(place_of(root, "cas", digests[4]));
-  fs::create_symlink("/etc/hostname", place_of(root, "cas", digests[4]));
-
-  const Verified asked = verify(*Store::open({root, true}), false);
-  EXPECT_EQ(asked.bad.size(), 5u);
-  for (const Finding& bad : asked.bad) EXPECT_FALSE(bad.moved) << bad.file;
-
-  const Verified found = verify(*open(), false);
-  std::set<std::string> named;
-  for (const Finding& bad : found.bad) {
-    EXPECT_TRUE(bad.moved) << bad.file;
-    EXPECT_FALSE(bad.what.empty());
-    named.insert(root + '/' + bad.file);
-  }
-  EXPECT_EQ(named,
-            (std::set<std::string>{place_of(root, "cas", digests[0]), place_of(root, "cas", digests[1]),
-                                   place_of(root, "cas", digests[4]), place_of(root, "ac", key_of(2)),
-                                   place_of(root, "ac", key_of(3))}));
-  EXPECT_EQ(open()->statistics().quarantined, 5u);
-  EXPECT_TRUE(verify(*open(), true).bad.empty());
-
-  for (int i = 0; i < 6; ++i) put(i, 2, 1, 1);  // as a run does on a miss
-  for (const Digest& digest : digests) EXPECT_TRUE(has(digest));
-  EXPECT_TRUE(verify(*open(), true).bad.empty());
-}
-
-TEST_F(GcTest, only_full_verification_finds_content_that_fits_its_entry_but_not_its_name) {
-  // The entry and the blob agree with each other; the name of the blob is another's.
-  const auto store = open();
-  const ArtifactPtr right = make_probe(1), wrong = make_probe(2);
-  ActionEntry entry = action_for(*wrong);
-  entry.outputs[0].digest = right->digest();
-  store->put_action(key_of(1), entry);
-  test::write_file(place_of(root, "cas", right->digest()), test::file_bytes(*wrong));
-  fs::permissions(place_of(root, "cas", right->digest()), fs::perms(0444));
-  EXPECT_TRUE(verify(*store, false).bad.empty());
-  EXPECT_EQ(verify(*store, true).bad.size(), 1u);
-  EXPECT_FALSE(has(right->digest()));
-}
-
-TEST_F(GcTest, an_entry_that_describes_a_good_artifact_wrongly_is_the_bad_one) {
-  const auto store = open();
-  const ArtifactPtr probe = make_probe(1);
-  ActionEntry entry = action_for(*probe);
-  entry.outputs[0].checksum.low ^= 1;
-  store->put_blob(*probe, false);
-  store->put_action(key_of(1), entry);
-  const Verified found = verify(*store, false);
-  ASSERT_EQ(found.bad.size(), 1u);
-  EXPECT_EQ(found.bad[0].file.rfind("ac/", 0), 0u);
-  EXPECT_TRUE(has(probe->digest()));
-  EXPECT_FALSE(has_action(1));
-}
-
-TEST_F(GcTest, memoised_digests_are_verified_and_bounded) {
-  const auto store = open();
-  for (int i = 0; i < 8; ++i) {
-    const std::string input = folder.file("input" + std::to_string(i));
-    test::write_file(input, "content " + std::to_string(i));
-    files->clock_offset = 10'000'000'000;  // old enough to be believed
-    store->file_digest(input);
-  }
-  files->clock_offset = 0;
-  EXPECT_EQ(verify(*store, false).memos, 8u);
-  const auto memo = *std::next(fs::recursive_directory_iterator(root + "/files"));
-  std::string bytes = test::read_file(memo.path());
-  bytes[20] = static_cast<char>(bytes[20] ^ 1);
-  fs::remove(memo.path());
-  test::write_file(memo.path(), bytes);
-  EXPECT_EQ(verify(*store, false).bad.size(), 1u);
-  const Collected done = collect_to(5 * block);
-  EXPECT_EQ(done.quarantined, 1u);
-  EXPECT_EQ(done.memos, 7u) << "a tenth of the limit is less than one";
 }
 
 }  // namespace ballflow

@@ -1,68 +1,14 @@
 #include "ballflow/store.hpp"
 
-#include <fcntl.h>
-#include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdlib>
-#include <filesystem>
 #include <thread>
 
-#include "ballflow/error.hpp"
-#include "faulty_file_system.hpp"
-#include "probe.hpp"
-#include "test_data.hpp"
+#include "store_fixture.hpp"
 
 namespace ballflow {
-namespace {
-
-namespace fs = std::filesystem;
-using test::action_for;
-using test::entry_for;
-using test::FaultyFileSystem;
-using test::make_probe;
-using test::place_of;
-
-std::vector<std::string> names_in(const std::string& folder) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-std::size_t files_below(const std::string& folder) {
-  std::size_t count = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) count += entry.is_regular_file() ? 1 : 0;
-  return count;
-}
-
-std::string refusal(const StoreOptions& options, const std::shared_ptr<FileSystem>& files = {}) {
-  try {
-    Store::open(options, files);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::store);
-    EXPECT_FALSE(error.hint().empty());
-    return error.what();
-  }
-  return "opened";
-}
-
-class StoreTest : public ::testing::Test {
- protected:
-  std::shared_ptr<Store> open() const { return Store::open({root}, files); }
-
-  const test::TempFolder folder;
-  const std::string root = folder.file("a cache/with spaces");
-  const std::shared_ptr<FaultyFileSystem> files = std::make_shared<FaultyFileSystem>();
-  const ArtifactPtr probe = make_probe(1);
-  const ActionEntry action = action_for(*probe);
-  const Digest key = sha256("key");
-};
-
-}  // namespace
 
 TEST_F(StoreTest, publishes_what_another_store_finds) {
   const auto writer = open();
@@ -178,6 +124,31 @@ TEST_F(StoreTest, an_entry_that_agrees_about_the_outputs_is_no_disagreement) {
   const ActionPut failed = store->put_action(key, action_for(*make_probe(2)));
   EXPECT_FALSE(failed.stored);
   EXPECT_FALSE(failed.disagreed) << "nothing was replaced";
+}
+
+TEST_F(StoreTest, an_entry_that_appears_while_another_is_written_does_not_go_unseen) {
+  const ActionEntry quicker = action_for(*make_probe(2));
+  for (const bool agrees : {true, false}) {
+    const Digest raced = sha256(agrees ? "agrees" : "differs");
+    const auto rival = Store::open({root});
+    bool entered = false;
+    files->fault = [&](const std::string& call) {
+      if (call == "write" && !entered) {
+        entered = true;
+        rival->put_action(raced, agrees ? action : quicker);
+      }
+      return 0;
+    };
+    const ActionPut put = open()->put_action(raced, action);
+    files->fault = {};
+    ASSERT_TRUE(entered);
+    EXPECT_TRUE(put.stored);
+    ASSERT_EQ(put.disagreed.has_value(), !agrees);
+    if (!agrees) {
+      EXPECT_TRUE(test::equal(*put.disagreed, quicker));
+    }
+    EXPECT_TRUE(test::equal(*open()->find_action(raced), action));
+  }
 }
 
 TEST_F(StoreTest, flushes_to_disk_only_when_asked) {
@@ -297,23 +268,6 @@ TEST_F(StoreTest, a_read_only_file_system_gives_hits) {
   EXPECT_NE(store->why().find("Read-only file system"), std::string::npos) << store->why();
   EXPECT_NE(store->load(entry_for(*probe)), nullptr);
   EXPECT_FALSE(store->put_blob(*make_probe(2), false));
-}
-
-TEST_F(StoreTest, a_store_of_the_superuser_serves_others_read_only) {
-  if (::geteuid() != 0) GTEST_SKIP() << "needs to become another user";
-  open()->put_blob(*probe, false);
-  fs::permissions(folder.path(), fs::perms{0755});
-  const pid_t child = ::fork();
-  if (child == 0) {
-    if (::setgid(65534) != 0 || ::setuid(65534) != 0) ::_exit(9);
-    const auto store = Store::open({root});
-    const bool good = store->read_only() && store->why().find("Permission denied") != std::string::npos &&
-                      store->load(entry_for(*probe)) != nullptr && !store->put_blob(*make_probe(2), false);
-    ::_exit(good ? 0 : 1);
-  }
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  EXPECT_EQ(status, 0);
 }
 
 TEST_F(StoreTest, a_large_blob_that_is_given_up_leaves_nothing) {
@@ -447,122 +401,6 @@ TEST_F(StoreTest, fails_softly_when_the_whole_store_vanishes) {
   EXPECT_FALSE(store->put_action(key, action));
   EXPECT_EQ(store->load(entry_for(*probe)), nullptr);
   EXPECT_FALSE(store->put_run("run", {}));
-}
-
-TEST_F(StoreTest, folders_that_others_may_write_are_refused) {
-  open();
-  for (const std::string& place : {root, root + "/cas", root + "/ac", root + "/tmp", root + "/files"}) {
-    for (const unsigned mode : {0775u, 0757u, 0777u, 01777u}) {
-      ASSERT_EQ(::chmod(place.c_str(), mode), 0);
-      const std::string text = refusal({root});
-      EXPECT_NE(text.find("can be written by other users"), std::string::npos) << place << ' ' << text;
-      EXPECT_NE(text.find(place), std::string::npos) << text;
-      EXPECT_NE(refusal({root, true}), "opened") << "reading is what must not be trusted";
-    }
-    ASSERT_EQ(::chmod(place.c_str(), 0755), 0);
-  }
-  EXPECT_EQ(refusal({root}), "opened");
-}
-
-TEST_F(StoreTest, a_folder_of_another_user_is_refused) {
-  open();
-  files->after_status = [](struct stat& status) { status.st_uid = ::geteuid() + 4242; };
-  EXPECT_NE(refusal({root}, files).find("belongs to another user"), std::string::npos);
-  if (::geteuid() == 0) {
-    ASSERT_EQ(::chown(root.c_str(), 4242, 4242), 0);
-    EXPECT_NE(refusal({root}).find("belongs to another user (id 4242)"), std::string::npos);
-  }
-}
-
-TEST_F(StoreTest, a_wide_open_umask_does_not_make_it_untrusted) {
-  const mode_t before = ::umask(0);
-  open()->put_blob(*probe, false);
-  open()->put_action(key, action);
-  ::umask(before);
-  EXPECT_NE(open()->load(entry_for(*probe)), nullptr);
-  EXPECT_TRUE(open()->find_action(key));
-}
-
-TEST_F(StoreTest, the_root_may_be_a_link_but_nothing_inside) {
-  open()->put_blob(*probe, false);
-  const std::string alias = folder.file("alias");
-  fs::create_directory_symlink(root, alias);
-  EXPECT_NE(Store::open({alias})->load(entry_for(*probe)), nullptr);
-
-  fs::rename(root + "/cas", folder.file("elsewhere"));
-  fs::create_directory_symlink(folder.file("elsewhere"), root + "/cas");
-  EXPECT_NE(refusal({root}).find("\"cas\" is a link"), std::string::npos);
-}
-
-TEST_F(StoreTest, a_linked_subfolder_is_neither_read_nor_written) {
-  const auto store = open();
-  store->put_blob(*probe, false);
-  store->put_action(key, action);
-  for (const std::string& place : {place_of(root, "cas", probe->digest()), place_of(root, "ac", key)}) {
-    const std::string shard = fs::path(place).parent_path();
-    fs::rename(shard, folder.file("elsewhere"));
-    fs::create_directory_symlink(folder.file("elsewhere"), shard);
-    const bool blob_moved = place.starts_with(root + "/cas/");
-    EXPECT_EQ(store->load(entry_for(*probe)) == nullptr, blob_moved);
-    EXPECT_EQ(store->has_blob(entry_for(*probe)), !blob_moved);
-    EXPECT_EQ(store->find_action(key).has_value(), blob_moved);
-    const auto before = names_in(folder.file("elsewhere"));
-    fs::remove(folder.file("elsewhere") + "/" + before.front());
-    const bool blob = store->put_blob(*probe, false), entry = store->put_action(key, action).stored;
-    EXPECT_EQ(blob, !blob_moved);
-    EXPECT_EQ(entry, blob_moved);
-    EXPECT_TRUE(names_in(folder.file("elsewhere")).empty()) << "written through the link";
-    fs::remove(shard);
-    fs::remove_all(folder.file("elsewhere"));
-    EXPECT_TRUE(store->put_blob(*probe, false));
-    EXPECT_TRUE(store->put_action(key, action));
-  }
-}
-
-TEST_F(StoreTest, a_linked_file_is_a_miss_and_is_replaced) {
-  const auto store = open();
-  store->put_blob(*probe, false);
-  store->put_action(key, action);
-  for (const std::string& place : {place_of(root, "cas", probe->digest()), place_of(root, "ac", key)}) {
-    const std::string elsewhere = folder.file(fs::path(place).filename());
-    fs::rename(place, elsewhere);
-    fs::create_symlink(elsewhere, place);
-  }
-  EXPECT_FALSE(store->has_blob(entry_for(*probe)));
-  EXPECT_EQ(store->load(entry_for(*probe)), nullptr);
-  EXPECT_FALSE(store->find_action(key));
-  EXPECT_TRUE(store->put_blob(*probe, false));
-  EXPECT_TRUE(store->put_action(key, action));
-  EXPECT_NE(store->load(entry_for(*probe)), nullptr);
-  EXPECT_TRUE(store->find_action(key));
-  EXPECT_FALSE(fs::is_symlink(place_of(root, "cas", probe->digest())));
-}
-
-TEST_F(StoreTest, files_that_others_may_write_are_misses) {
-  const auto store = open();
-  store->put_blob(*probe, false);
-  store->put_action(key, action);
-  ASSERT_EQ(::chmod(place_of(root, "cas", probe->digest()).c_str(), 0666), 0);
-  ASSERT_EQ(::chmod(place_of(root, "ac", key).c_str(), 0666), 0);
-  EXPECT_FALSE(store->find_action(key));
-  EXPECT_FALSE(store->has_blob(entry_for(*probe)));
-  EXPECT_EQ(store->load(entry_for(*probe)), nullptr);
-}
-
-TEST_F(StoreTest, pipes_and_folders_in_the_place_of_files_are_misses) {
-  for (const bool pipe : {true, false}) {
-    const auto store = open();
-    for (const std::string& place : {place_of(root, "cas", probe->digest()), place_of(root, "ac", key)}) {
-      fs::create_directories(fs::path(place).parent_path());
-      ASSERT_EQ(pipe ? ::mkfifo(place.c_str(), 0600) : ::mkdir(place.c_str(), 0700), 0);
-    }
-    EXPECT_EQ(store->load(entry_for(*probe)), nullptr);
-    EXPECT_FALSE(store->find_action(key));
-    EXPECT_TRUE(store->put_blob(*probe, false));
-    EXPECT_NE(store->load(entry_for(*probe)), nullptr);
-    EXPECT_EQ(store->put_action(key, action).stored, pipe) << "a file does not replace a folder";
-    fs::remove_all(root);
-  }
 }
 
 TEST(store_root, follows_the_environment) {
