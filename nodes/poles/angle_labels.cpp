@@ -142,6 +142,7 @@ class Spreading {
   /// than the seeds, whose certainty is 1.
   double cosine(std::size_t p, std::size_t q) const {
     const double a = poles_.radii[p], b = poles_.radii[q];
+    if (!(a > 0 && b > 0)) return 0;  // a sphere without a radius says nothing
     const double c = (a * a + b * b - squared_distance(poles_.centers[p], poles_.centers[q])) / (2 * a * b);
     return std::clamp(c, -1.0, 1.0);
   }
@@ -193,22 +194,29 @@ class Spreading {
       for (std::size_t i = 0; i < entries.size(); ++i)
         result[i].*to = cosine(at(entries[i]), at(entries[pivot]));
     };
-    const auto largest = [&](const auto& key) {
-      const auto less = [&](const Vec3& u, const Vec3& v) { return key(u) < key(v); };
-      return static_cast<std::size_t>(std::max_element(result.begin(), result.end(), less) - result.begin());
+    const auto pivot = [&](const auto& key) {
+      std::size_t best = 0;
+      double greatest = -1;
+      for (std::size_t i = 0; i < entries.size(); ++i) {
+        if (const double k = key(result[i]); poles_.radii[at(entries[i])] > 0 && k > greatest) {
+          greatest = k;
+          best = i;
+        }
+      }
+      return best;
     };
-    cosines_of(entries.size() - 1, &Vec3::x);
-    const std::size_t b = largest([](const Vec3& u) { return 1 - u.x * u.x; });
+    const auto near = std::find_if(entries.rbegin(), entries.rend(),
+                                   [this](std::int32_t p) { return poles_.radii[at(p)] > 0; });
+    if (near == entries.rend()) return result;
+    cosines_of(static_cast<std::size_t>(entries.rend() - near) - 1, &Vec3::x);
+    const std::size_t b = pivot([](const Vec3& u) { return 1 - u.x * u.x; });
     cosines_of(b, &Vec3::y);
     const double bx = result[b].x, by = std::sqrt(std::max(0.0, 1 - bx * bx));
     for (Vec3& u : result) u.y = by > flat ? (u.y - u.x * bx) / by : 0;
-    const std::size_t c = largest([](const Vec3& u) { return 1 - u.x * u.x - u.y * u.y; });
+    const std::size_t c = pivot([](const Vec3& u) { return 1 - u.x * u.x - u.y * u.y; });
     cosines_of(c, &Vec3::z);
     const double cx = result[c].x, cy = result[c].y, cz = std::sqrt(std::max(0.0, 1 - cx * cx - cy * cy));
     for (Vec3& u : result) u.z = cz > flat ? (u.z - u.x * cx - u.y * cy) / cz : 0;
-    for (Vec3& u : result) {
-      if (!is_finite(u)) u = {};  // of a sphere without a radius, which says nothing
-    }
     return result;
   }
 

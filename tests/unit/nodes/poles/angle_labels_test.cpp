@@ -253,7 +253,11 @@ TEST(angle_labels, at_a_crowded_sample_take_nothing_from_spheres_without_a_radiu
   poles.radii = radii;
   const AngleLabels found = angle_labels(poles, no_monitor());
   EXPECT_EQ(found.labels.size(), poles.size());
-  for (std::size_t i = 0; i < radii.size(); i += 50) EXPECT_EQ(found.uncertain[i], 0) << i;
+  for (std::size_t i = 0; i < radii.size(); i += 50) {
+    EXPECT_EQ(found.uncertain[i], 0) << i;
+    EXPECT_EQ(found.labels[i],
+              static_cast<std::uint8_t>(poles.unbounded[i] == 1 ? PoleLabel::outer : PoleLabel::unlabelled));
+  }
 }
 
 TEST(angle_labels, without_an_outside_are_refused) {
