@@ -12,7 +12,7 @@
 
 namespace ballflow::geometry {
 
-/// What happens when the Euler characteristic of the axis is not that of the complex.
+/// What happens when the Betti numbers of the axis are not those of the union.
 enum class AxisMismatch { warn, error };
 
 struct MedialAxisOptions {
@@ -30,9 +30,11 @@ struct MedialAxisOptions {
 /// - Every polygon is plane and convex up to rounding; where one point of W belongs to several triangles of
 ///   the boundary of R (balls on a grid) it may be only plane.
 /// - Its kind is wall where a side of it is an edge of the boundary of R, which then hangs on that side.
-/// - The Euler characteristic of the axis is compared with that of the complex. They differ only where
-///   rounding hides the structure: a warning that names both, or an InputError. This happens for polar balls
-///   that were not enlarged, and rarely for balls on a grid of which many touch in one point.
+/// - All three Betti numbers of the axis, counted from its own polygons, edges and vertices, are compared
+/// with
+///   those of the union. They differ only where rounding hides the structure: a warning that names both, or
+///   an InputError. This happens for polar balls that were not enlarged, and rarely for balls on a grid of
+///   which many touch in one point.
 /// - The complex must hold its invariants (see broken_invariant).
 MedialAxis medial_axis(const SimplicialComplex& complex, const MedialAxisOptions& options, Monitor& monitor);
 

@@ -17,11 +17,12 @@ struct MedialAxis {
   MedialAxisOptions options;
 
   static void declare(NodeDecl<MedialAxis>& d) {
-    d.id("MedialAxis", 3).summary("The medial axis of a union of balls as a polygon complex.");
+    d.id("MedialAxis", 4).summary("The medial axis of a union of balls as a polygon complex.");
     d.doc(
         "Simplices of the alpha-shape that belong to no tetrahedron, and inside its tetrahedra the Voronoi "
         "diagram of the vertices of the union's boundary. The axis is homotopy equivalent to the union; its "
-        "Euler characteristic is compared with that of the alpha-shape. Accepts every alpha-shape: empty, "
+        "Betti numbers, counted from its own polygons, are compared with those of the alpha-shape. Accepts "
+        "every alpha-shape: empty, "
         "flat, with cavities, of several components, of balls on a grid. Polygons are labelled by sheets, "
         "the "
         "components after cutting at edges of three and more polygons, and oriented sheet by sheet; those "
@@ -39,7 +40,7 @@ struct MedialAxis {
     d.choice("on_mismatch", &MedialAxis::options, &MedialAxisOptions::on_mismatch,
              {{AxisMismatch::warn, "warn", "say so and go on: the axis is right except near the places lost"},
               {AxisMismatch::error, "error", "fail: nothing that follows sees an axis of another topology"}})
-        .doc("what happens when the axis and the alpha-shape have different Euler characteristics");
+        .doc("what happens when the axis and the union differ in components, tunnels or cavities");
   }
   void run(RunContext& context) {
     ContextMonitor monitor(context);

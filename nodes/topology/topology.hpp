@@ -27,10 +27,6 @@ struct SolidTopology {
 ///   and meshes with triangles without area are unknown.
 SolidTopology solid_topology(const TriangleMesh& surface, Monitor& monitor);
 
-/// Betti numbers of a medial axis from its own cells: components, and cycles of polygons over Z/2; b1 follows
-/// from the Euler characteristic.
-Betti axis_betti(const MedialAxis& axis, Monitor& monitor);
-
 /// What is there of the stages of a pipeline; null for what is not.
 struct TopologyInputs {
   const TriangleMesh* surface = nullptr;

@@ -15,6 +15,7 @@
 
 #include "base/arctangent.hpp"
 #include "binary_oracle.hpp"
+#include "homology/axis_betti.hpp"
 #include "power/alpha_shape.hpp"
 #include "power/union_vertices.hpp"
 
@@ -673,20 +674,38 @@ SimplicialComplex crossing_tetrahedra() {
   return complex;
 }
 
-TEST(medial_axis, warns_with_both_numbers_when_the_euler_characteristics_differ) {
-  const SimplicialComplex complex = crossing_tetrahedra();
+TEST(medial_axis, warns_with_both_topologies_when_they_differ) {
+  SimplicialComplex complex = crossing_tetrahedra();
+  complex.betti = {2, 0, 0};
   ASSERT_EQ(complex.euler_characteristic(), 2);
   Listener listener;
   const MedialAxis axis = medial_axis(complex, {}, listener);
-  const std::int64_t found = axis_topology(axis).euler_characteristic;
-  ASSERT_NE(found, 2);
+  ASSERT_NE(axis_topology(axis).euler_characteristic, 2);
   ASSERT_EQ(listener.warnings.size(), 1u);
-  EXPECT_NE(listener.warnings[0].find("of the axis is " + std::to_string(found)), std::string::npos);
-  EXPECT_NE(listener.warnings[0].find("of the union is 2"), std::string::npos);
+  EXPECT_NE(listener.warnings[0].find("the axis has " + describe(axis_betti(axis, no_monitor()))),
+            std::string::npos);
+  EXPECT_NE(listener.warnings[0].find("the union has 2 components, no tunnel, no cavity"), std::string::npos);
 }
 
-TEST(medial_axis, fails_when_the_euler_characteristics_must_not_differ) {
+TEST(medial_axis, fails_when_the_topologies_must_not_differ) {
   EXPECT_THROW(medial_axis(crossing_tetrahedra(), {AxisMismatch::error}, no_monitor()), InputError);
+}
+
+TEST(medial_axis, notices_a_component_and_a_tunnel_that_are_lost_together) {
+  // The Euler characteristics agree: only the three numbers themselves tell.
+  std::vector<Vec3> centers;
+  for (int i = 0; i < 12; ++i) centers.push_back({std::cos(pi * i / 6), std::sin(pi * i / 6), 0});
+  SimplicialComplex complex = axis_of(centers, 0.3).complex;
+  ASSERT_EQ(complex.betti, (Betti{1, 1, 0}));
+  Listener listener;
+  medial_axis(complex, {}, listener);
+  EXPECT_TRUE(listener.warnings.empty());
+  complex.betti = {2, 2, 0};
+  ASSERT_EQ(broken_invariant(complex), "");
+  medial_axis(complex, {}, listener);
+  ASSERT_EQ(listener.warnings.size(), 1u);
+  EXPECT_NE(listener.warnings[0].find("1 component, 1 tunnel, no cavity"), std::string::npos);
+  EXPECT_THROW(medial_axis(complex, {AxisMismatch::error}, no_monitor()), InputError);
 }
 
 TEST(medial_axis, stops_when_it_is_cancelled) {

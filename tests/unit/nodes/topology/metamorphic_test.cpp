@@ -14,6 +14,7 @@
 
 #include "axis/medial_axis.hpp"
 #include "binary_oracle.hpp"
+#include "homology/axis_betti.hpp"
 #include "homology/inclusion_homology.hpp"
 #include "measure/compare.hpp"
 #include "measure/union_measure.hpp"

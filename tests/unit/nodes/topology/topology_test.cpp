@@ -9,6 +9,7 @@
 
 #include "axis/medial_axis.hpp"
 #include "binary_oracle.hpp"
+#include "homology/axis_betti.hpp"
 #include "homology/binary_system.hpp"
 #include "power/alpha_shape.hpp"
 #include "search/self_intersection.hpp"

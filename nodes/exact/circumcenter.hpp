@@ -1,0 +1,15 @@
+// Circumcentres of tetrahedra.
+#pragma once
+
+#include <array>
+
+#include "base/vec3.hpp"
+
+namespace ballflow::geometry {
+
+/// The point at equal distance from four points that lie in no plane, wrong by some 1e-12 of the size of the
+/// tetrahedron at most: where it is flat, rational numbers are asked. How it is rounded depends on the order
+/// of the points.
+Vec3 circumcenter(const std::array<Vec3, 4>& points);
+
+}  // namespace ballflow::geometry
