@@ -47,6 +47,11 @@ Reals climb(const Part& part, const LagrangianBoundOptions& options, Monitor& mo
     u[c] = 1.0F / static_cast<float>(longest);
   }
   Reals best = u, direction(columns), slope(columns);
+  struct Overload {
+    std::int32_t row;
+    float load;
+  };
+  std::vector<Overload> over(rows);
   const auto upper = static_cast<double>(greedy_rows(part.rows, columns, monitor).size());
   const auto momentum = static_cast<float>(options.momentum);
   double best_bound = 0, factor = 1;
@@ -56,13 +61,21 @@ Reals climb(const Part& part, const LagrangianBoundOptions& options, Monitor& mo
     double bound = 0;
     for (std::size_t c = 0; c < columns; ++c) bound += static_cast<double>(u[c]);
     std::fill(slope.begin(), slope.end(), 1.0F);
+    // Which rows are loaded too much looks random to the machine: it is written down without a jump that
+    // depends on it, and looked at afterwards.
+    std::size_t overloaded = 0;
     for (std::size_t i = 0; i < rows; ++i) {
       const auto row = part.rows[i];
       look(row.size());
       const float load = load_of(row, u.data());
-      if (load <= 1) continue;
+      over[overloaded] = {static_cast<std::int32_t>(i), load};
+      overloaded += load > 1 ? 1 : 0;
+    }
+    for (std::size_t k = 0; k < overloaded; ++k) {
+      const auto [i, load] = over[k];
       bound -= static_cast<double>(load) - 1;
-      for (const std::int32_t c : row) slope[static_cast<std::size_t>(c)] -= 1;
+      for (const std::int32_t c : part.rows[static_cast<std::size_t>(i)])
+        slope[static_cast<std::size_t>(c)] -= 1;
     }
     if (bound > best_bound * (1 + 1e-7)) {
       best_bound = bound;
@@ -77,7 +90,7 @@ Reals climb(const Part& part, const LagrangianBoundOptions& options, Monitor& mo
     double norm = 0;
     for (std::size_t c = 0; c < columns; ++c) {
       // A multiplier of 0 cannot fall.
-      const float s = u[c] <= 0 && slope[c] < 0 ? 0.0F : slope[c];
+      const float s = u[c] <= 0 ? std::max(slope[c], 0.0F) : slope[c];
       direction[c] = t == 0 ? s : momentum * direction[c] + (1 - momentum) * s;
       norm += static_cast<double>(direction[c]) * static_cast<double>(direction[c]);
     }

@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::int64_t no_key = std::numeric_limits<std::int64_t>::max();
 constexpr std::size_t block = 64;  // slots; for covers of 1000 to 10 000 rows
+constexpr std::size_t group = 8;   // slots; a block is looked through by its groups
 
 constexpr std::int64_t loss_unit = std::int64_t{1} << 32;  // of a key
 
@@ -24,11 +25,13 @@ WeightingSearch::WeightingSearch(Part part, const std::vector<std::int32_t>& cov
       weight_limit_(weight_limit),
       gains_(part_.rows.size()),
       moved_(part_.rows.size()),
+      keepers_(part_.columns.size()),
       columns_(part_.columns.size()),
       slot_of_(part_.rows.size(), -1),
       row_in_(cover.size(), -1),
-      keys_(cover.size(), no_key),
-      least_key_((cover.size() + block - 1) / block, no_key),
+      keys_((cover.size() + block - 1) / block * block, no_key),
+      group_key_(keys_.size() / group, no_key),
+      least_key_(keys_.size() / block, no_key),
       least_slot_(least_key_.size(), -1),
       best_(cover) {
   weight_sum_ = static_cast<std::int64_t>(columns_.size());
@@ -47,8 +50,27 @@ WeightingSearch::WeightingSearch(Part part, const std::vector<std::int32_t>& cov
   for (const Id row : best_) add(row, look);
 }
 
+/// Without jumps that depend on the keys.
+std::int64_t WeightingSearch::least_of_group(std::size_t g) const {
+  const std::int64_t* k = keys_.data() + g * group;
+  const std::int64_t a = std::min(k[0], k[1]), b = std::min(k[2], k[3]), c = std::min(k[4], k[5]),
+                     d = std::min(k[6], k[7]);
+  return std::min(std::min(a, b), std::min(c, d));
+}
+
+void WeightingSearch::set_key(Id slot, std::int64_t key) {
+  const std::int64_t before = std::exchange(keys_[at(slot)], key);
+  std::int64_t& least = group_key_[at(slot) / group];
+  if (key <= least) {
+    least = key;
+  } else if (before == least) {
+    least = least_of_group(at(slot) / group);
+  }
+}
+
 void WeightingSearch::change_loss(Id slot, std::int32_t by) {
-  const std::int64_t key = keys_[at(slot)] += by * loss_unit;
+  const std::int64_t key = keys_[at(slot)] + by * loss_unit;
+  set_key(slot, key);
   const std::size_t b = at(slot) / block;
   if (key < least_key_[b]) {
     least_key_[b] = key;
@@ -58,21 +80,21 @@ void WeightingSearch::change_loss(Id slot, std::int32_t by) {
   }
 }
 
+/// The first of the least keys of a block, but for that of `except`.
 void WeightingSearch::find_least(std::size_t b, Id except) {
-  const auto begin = keys_.begin() + static_cast<std::ptrdiff_t>(b * block);
-  const auto end = keys_.begin() + static_cast<std::ptrdiff_t>(std::min(keys_.size(), (b + 1) * block));
-  const std::int64_t hidden = except < 0 ? no_key : std::exchange(keys_[at(except)], no_key);
-  // Two minima side by side, without jumps that depend on the keys: half the time of a plain loop.
-  std::int64_t even = no_key, odd = no_key;
-  auto key = begin;
-  for (; end - key >= 2; key += 2) {
-    even = std::min(even, key[0]);
-    odd = std::min(odd, key[1]);
-  }
-  if (key != end) even = std::min(even, *key);
-  least_key_[b] = std::min(even, odd);
-  least_slot_[b] = static_cast<Id>(std::find(begin, end, least_key_[b]) - keys_.begin());
-  if (except >= 0) keys_[at(except)] = hidden;
+  const std::int64_t hidden = except < 0 ? no_key : keys_[at(except)];
+  if (except >= 0) set_key(except, no_key);
+  constexpr std::size_t groups = block / group;
+  const std::int64_t* k = group_key_.data() + b * groups;
+  const std::int64_t least = std::min(std::min(std::min(k[0], k[1]), std::min(k[2], k[3])),
+                                      std::min(std::min(k[4], k[5]), std::min(k[6], k[7])));
+  std::size_t g = 0;
+  while (k[g] != least) ++g;
+  std::size_t slot = b * block + g * group;
+  while (keys_[slot] != least) ++slot;
+  least_key_[b] = least;
+  least_slot_[b] = static_cast<Id>(slot);
+  if (except >= 0) set_key(except, hidden);
 }
 
 void WeightingSearch::add(Id row, Lookout& look) {
@@ -80,8 +102,9 @@ void WeightingSearch::add(Id row, Lookout& look) {
   free_.pop_back();
   std::int32_t loss = 0;
   for (const Id c : part_.rows[at(row)]) {
-    Column& column = columns_[at(c)];
-    if (++column.times == 1) {
+    Keepers& keepers = keepers_[at(c)];
+    if (++keepers.times == 1) {
+      Column& column = columns_[at(c)];
       look(part_.columns.degree(at(c)));
       for (const Id other : part_.columns[at(c)]) gains_[at(other)] -= Gain(column.weight);
       column.weight += tick_;
@@ -90,15 +113,15 @@ void WeightingSearch::add(Id row, Lookout& look) {
       uncovered_[at(column.place)] = last;
       columns_[at(last)].place = column.place;
       uncovered_.pop_back();
-    } else if (column.times == 2) {
-      change_loss(column.keepers, -column.weight);
+    } else if (keepers.times == 2) {
+      change_loss(keepers.slots, -columns_[at(c)].weight);
     }
-    column.keepers ^= slot;
+    keepers.slots ^= slot;
   }
   moved_[at(row)] = step_;
   slot_of_[at(row)] = slot;
   row_in_[at(slot)] = row;
-  keys_[at(slot)] = loss * loss_unit + step_;
+  set_key(slot, loss * loss_unit + step_);
   const std::size_t b = at(slot) / block;
   if (keys_[at(slot)] < least_key_[b]) {
     least_key_[b] = keys_[at(slot)];
@@ -111,22 +134,23 @@ void WeightingSearch::drop(Id row, Lookout& look) {
   const Id slot = slot_of_[at(row)];
   slot_of_[at(row)] = -1;
   row_in_[at(slot)] = -1;
-  keys_[at(slot)] = no_key;
+  set_key(slot, no_key);
   free_.push_back(slot);
   if (least_slot_[at(slot) / block] == slot) find_least(at(slot) / block, -1);
   --size_;
   moved_[at(row)] = step_;
   for (const Id c : part_.rows[at(row)]) {
-    Column& column = columns_[at(c)];
-    column.keepers ^= slot;
-    if (--column.times == 0) {
+    Keepers& keepers = keepers_[at(c)];
+    keepers.slots ^= slot;
+    if (--keepers.times == 0) {
+      Column& column = columns_[at(c)];
       look(part_.columns.degree(at(c)));
       column.weight -= tick_;
       for (const Id other : part_.columns[at(c)]) gains_[at(other)] += Gain(column.weight);
       column.place = static_cast<Id>(uncovered_.size());
       uncovered_.push_back(c);
-    } else if (column.times == 1) {
-      change_loss(column.keepers, column.weight);
+    } else if (keepers.times == 1) {
+      change_loss(keepers.slots, columns_[at(c)].weight);
     }
   }
 }
@@ -136,11 +160,15 @@ WeightingSearch::Id WeightingSearch::least_loss() {
   const Id tabu = last_added_ < 0 ? -1 : slot_of_[at(last_added_)];
   const std::size_t tabu_block = tabu < 0 ? least_key_.size() : at(tabu) / block;
   const bool hidden = tabu >= 0 && least_slot_[tabu_block] == tabu;
+  const std::int64_t tabu_key = hidden ? least_key_[tabu_block] : no_key;
   if (hidden) find_least(tabu_block, tabu);
   const auto least = std::min_element(least_key_.begin(), least_key_.end()) - least_key_.begin();
   const bool none = least_key_[static_cast<std::size_t>(least)] == no_key;
   const Id row = none ? last_added_ : row_in_[at(least_slot_[static_cast<std::size_t>(least)])];
-  if (hidden) find_least(tabu_block, -1);
+  if (hidden) {
+    least_key_[tabu_block] = tabu_key;
+    least_slot_[tabu_block] = tabu;
+  }
   return row;
 }
 
@@ -186,13 +214,14 @@ void WeightingSearch::halve_weights(Lookout& look) {
     Column& column = columns_[c];
     column.weight = (column.weight + 1) / 2;
     weight_sum_ += column.weight;
-    if (column.times == 0) {
+    if (keepers_[c].times == 0) {
       look(part_.columns.degree(c));
       for (const Id row : part_.columns[c]) gains_[at(row)] += Gain(column.weight);
-    } else if (column.times == 1) {
-      keys_[at(column.keepers)] += column.weight * loss_unit;
+    } else if (keepers_[c].times == 1) {
+      keys_[at(keepers_[c].slots)] += column.weight * loss_unit;
     }
   }
+  for (std::size_t g = 0; g < group_key_.size(); ++g) group_key_[g] = least_of_group(g);
   for (std::size_t b = 0; b < least_key_.size(); ++b) find_least(b, -1);
 }
 

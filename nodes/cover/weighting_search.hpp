@@ -47,9 +47,11 @@ class WeightingSearch {
    private:
     std::int64_t bits_ = 0;  // the sum in the upper half, the number in the lower
   };
+  struct Keepers {
+    std::int32_t times = 0;  // how many rows of the cover cover a column
+    Id slots = 0;            // exclusive or of their slots: the slot itself while there is one
+  };
   struct Column {
-    std::int32_t times = 0;   // how many rows of the cover cover it
-    Id keepers = 0;           // exclusive or of their slots: the slot itself while there is one
     std::int32_t weight = 1;  // while it is uncovered: at tick 0
     Id place = -1;            // in uncovered_
   };
@@ -57,6 +59,8 @@ class WeightingSearch {
   void add(Id row, Lookout& look);
   void drop(Id row, Lookout& look);
   void change_loss(Id slot, std::int32_t by);
+  void set_key(Id slot, std::int64_t key);
+  std::int64_t least_of_group(std::size_t group) const;
   void find_least(std::size_t block, Id except);
   Id least_loss();
   Id best_gain(Id column) const;
@@ -75,14 +79,17 @@ class WeightingSearch {
   Id last_added_ = -1, last_dropped_ = -1;
   std::vector<Gain> gains_;          // of each row; valid while it is outside the cover
   std::vector<std::int32_t> moved_;  // step in which each row was added or dropped last
+  std::vector<Keepers>
+      keepers_;  // of each column; apart from what few steps need, so that more fit the cache
   std::vector<Column> columns_;
   std::vector<Id> uncovered_;
 
   // The cover in slots; a slot's key is its row's loss and, in the low bits, when the row was moved last:
-  // the least key is dropped. Blocks of slots know their least slot.
+  // the least key is dropped. Blocks of slots know their least slot, groups in them their least key.
   std::vector<Id> slot_of_;              // of each row, -1 outside the cover
   std::vector<Id> row_in_;               // of each slot, -1 when it is free
-  std::vector<std::int64_t> keys_;       // of each slot
+  std::vector<std::int64_t> keys_;       // of each slot, free ones to fill the last block
+  std::vector<std::int64_t> group_key_;  // least key of each group
   std::vector<Id> free_;                 // slots
   std::vector<std::int64_t> least_key_;  // of each block
   std::vector<Id> least_slot_;
