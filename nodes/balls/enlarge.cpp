@@ -70,6 +70,15 @@ std::vector<double> wished_radii(const Balls& balls, const PointSet& sample, con
 
 }  // namespace
 
+EnlargeOptions searched(EnlargeOptions options, const Bisection& search) {
+  if (options.mode == EnlargeMode::multiplicative) {
+    throw InputError("a search is connected, but mode multiplicative does not use epsilon",
+                     "search with another mode, such as additive");
+  }
+  options.epsilon = search.value;
+  return options;
+}
+
 Enlarged enlarge(const Balls& balls, const PointSet& sample, const PoleSet& poles,
                  const EnlargeOptions& options, Monitor& monitor) {
   check(options);

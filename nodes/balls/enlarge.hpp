@@ -7,6 +7,7 @@
 #include "balls/power_growth.hpp"
 #include "base/monitor.hpp"
 #include "types/balls.hpp"
+#include "types/bisection.hpp"
 #include "types/growth.hpp"
 #include "types/point_set.hpp"
 #include "types/pole_set.hpp"
@@ -33,6 +34,10 @@ struct EnlargeOptions {
   PoleBoundOptions pole_bound{};
   PowerGrowthOptions power_diagram{};
 };
+
+/// The options with the growth that a search tries next as epsilon. Throws InputError for mode
+/// multiplicative, which does not use it.
+EnlargeOptions searched(EnlargeOptions options, const Bisection& search);
 
 struct Enlarged {
   Balls balls;  // same order, same centers, same defining samples, no radius smaller than before

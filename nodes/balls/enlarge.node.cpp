@@ -92,11 +92,7 @@ struct Enlarge {
   }
   void run(RunContext& context) {
     ContextMonitor monitor(context);
-    if (search && options.mode == geometry::EnlargeMode::multiplicative) {
-      throw geometry::InputError("a search is connected, but mode multiplicative does not use epsilon",
-                                 "search with another mode, such as additive");
-    }
-    if (search) options.epsilon = search->value;
+    if (search) options = geometry::searched(options, *search);
     options.pole_bound = pole_bound;
     options.power_diagram = power_diagram;
     geometry::Enlarged result = geometry::enlarge(*balls, points ? *points : geometry::PointSet{},

@@ -176,5 +176,12 @@ TEST(balls, report_broken_invariants) {
   EXPECT_NE(broken_invariant(b).find("ball 0"), std::string::npos);
 }
 
+TEST(enlarge, takes_epsilon_from_a_search_where_the_mode_uses_it) {
+  Bisection search;
+  search.value = 0.75;
+  EXPECT_EQ(searched({}, search).epsilon, 0.75);
+  EXPECT_THROW(searched({.mode = EnlargeMode::multiplicative}, search), InputError);
+}
+
 }  // namespace
 }  // namespace ballflow::geometry
