@@ -3,7 +3,7 @@
 #include <ballflow/sdk.hpp>
 
 #include "exact/cgal_version.hpp"
-#include "types/artifact_types.hpp"
+#include "types/power_diagram_type.hpp"
 
 namespace ballflow::nodes {
 namespace {
@@ -13,6 +13,7 @@ using geometry::AlphaTolerance;
 
 struct AlphaShape {
   In<geometry::Balls> balls;
+  In<geometry::PowerDiagram> diagram;
   Out<geometry::SimplicialComplex> complex;
   AlphaShapeOptions options;
 
@@ -33,7 +34,12 @@ struct AlphaShape {
     d.cites("kornberger2010", "2.6").cites("edelsbrunner1995", "the union of balls and its dual shape");
     d.library("CGAL", geometry::cgal_version());
     d.memory(1 << 20, 32);  // 950 bytes per ball were measured
-    d.input("balls", &AlphaShape::balls).doc("n closed balls, model units");
+    d.input("balls", &AlphaShape::balls)
+        .optional()
+        .doc("n closed balls, model units; needed where no diagram is connected");
+    d.input("diagram", &AlphaShape::diagram)
+        .optional()
+        .doc("their power diagram, instead of the balls (node PowerDiagram): nothing is triangulated again");
     d.output("complex", &AlphaShape::complex)
         .doc("the dual complex over the n balls, with classes and Betti numbers");
     d.choice("tolerance", &AlphaShape::options, &AlphaShapeOptions::tolerance,
@@ -43,11 +49,17 @@ struct AlphaShape {
                "2^-36 of the squared longest bounding-box edge is added to every squared radius, so that "
                "polar balls "
                "through one sample overlap whatever rounding says; recorded as delta"}})
-        .doc("what is added to squared radii before anything is decided");
+        .doc("what is added to squared radii before anything is decided; a diagram brings its own");
   }
   void run(RunContext& context) {
     ContextMonitor monitor(context);
-    complex = geometry::alpha_shape(*balls, options, monitor);
+    if ((balls ? 1 : 0) + (diagram ? 1 : 0) != 1) {
+      throw geometry::InputError(
+          balls ? "both balls and a power diagram are connected" : "no balls are connected",
+          "connect either balls, or the diagram of a node PowerDiagram");
+    }
+    complex =
+        diagram ? geometry::alpha_shape(*diagram, monitor) : geometry::alpha_shape(*balls, options, monitor);
   }
 };
 

@@ -1,14 +1,17 @@
 // The family "alpha": the dual complex of a union of balls.
 #include <ballflow/sdk.hpp>
 
-#include "types/artifact_types.hpp"
+#include "types/power_diagram_type.hpp"
 
 namespace ballflow::nodes {
 const bf_node* alpha_shape_entry();
+const bf_node* power_diagram_entry();
 }  // namespace ballflow::nodes
 
 BALLFLOW_PLUGIN("alpha", "0.1.0",
                 (std::vector<const bf_node*>{
                     ballflow::nodes::alpha_shape_entry(),
+                    ballflow::nodes::power_diagram_entry(),
                 }),
-                (ballflow::type_entries<ballflow::geometry::Balls, ballflow::geometry::SimplicialComplex>()))
+                (ballflow::type_entries<ballflow::geometry::Balls, ballflow::geometry::SimplicialComplex,
+                                        ballflow::geometry::PowerDiagram>()))

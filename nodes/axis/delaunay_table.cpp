@@ -2,15 +2,13 @@
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Spatial_sort_traits_adapter_3.h>
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
-#include <CGAL/property_map.h>
-#include <CGAL/spatial_sort.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
+
+#include "exact/spatial_order.hpp"
 
 namespace ballflow::geometry {
 
@@ -24,17 +22,13 @@ std::vector<DelaunayCell> delaunay_cells(std::span<const Vec3> points, Monitor& 
   std::vector<Kernel::Point_3> sites;
   sites.reserve(points.size());
   for (const Vec3& p : points) sites.emplace_back(p.x, p.y, p.z);
-  std::vector<std::size_t> order(sites.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  using SiteMap = CGAL::Pointer_property_map<Kernel::Point_3>::type;
-  CGAL::spatial_sort(order.begin(), order.end(),
-                     CGAL::Spatial_sort_traits_adapter_3<Kernel, SiteMap>(CGAL::make_property_map(sites)));
+  const std::vector<std::int32_t> order = spatial_order(points);
   Triangulation triangulation;
   Triangulation::Cell_handle hint;
   for (std::size_t i = 0; i < order.size(); ++i) {  // one by one, to look at the monitor in between
     if (i % 512 == 0) monitor.step(static_cast<double>(i) / static_cast<double>(order.size()));
-    const auto vertex = triangulation.insert(sites[order[i]], hint);
-    vertex->info() = static_cast<std::int32_t>(order[i]);
+    const auto vertex = triangulation.insert(sites[static_cast<std::size_t>(order[i])], hint);
+    vertex->info() = order[i];
     hint = vertex->cell();
   }
   if (triangulation.dimension() < 3) return {};

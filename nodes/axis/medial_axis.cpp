@@ -26,6 +26,7 @@
 #include "axis/voronoi_facets.hpp"
 #include "axis/voronoi_places.hpp"
 #include "homology/axis_betti.hpp"
+#include "power/power_diagram.hpp"
 #include "power/union_vertices.hpp"
 #include "types/topology_table.hpp"
 
@@ -36,8 +37,8 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 class Axis {
  public:
-  Axis(const SimplicialComplex& complex, Monitor& monitor)
-      : complex_(complex), monitor_(monitor), look_(monitor) {}
+  Axis(const SimplicialComplex& complex, const PowerDiagram* diagram, Monitor& monitor)
+      : complex_(complex), diagram_(diagram), monitor_(monitor), look_(monitor) {}
 
   MedialAxis run() {
     if (!complex_.tetrahedra.empty()) add_regular_part();
@@ -51,6 +52,7 @@ class Axis {
   MedialAxis finish();
 
   const SimplicialComplex& complex_;
+  const PowerDiagram* diagram_;  // null where it is not known
   Monitor& monitor_;
   Lookout look_;
   std::optional<VoronoiPlaces> places_;  // none without tetrahedra
@@ -69,7 +71,9 @@ void Axis::add_regular_part() {
   }
   const double size = box.longest_edge();
   PartMonitor first(monitor_, 0, 0.1), second(monitor_, 0.1, 0.7), third(monitor_, 0.7, 0.9);
-  places_.emplace(complex_, union_vertices(complex_, std::ldexp(size, -40), first), size, second);
+  const auto named =
+      diagram_ != nullptr ? exposed_sides(complex_, *diagram_, first) : exposed_sides(complex_, first);
+  places_.emplace(complex_, union_vertices(complex_, named, std::ldexp(size, -40), first), size, second);
   pieces_ = voronoi_facets(complex_, *places_, third);
 }
 
@@ -169,10 +173,9 @@ MedialAxis Axis::finish() {
   return with_sheets(std::move(axis), monitor_);
 }
 
-}  // namespace
-
-MedialAxis medial_axis(const SimplicialComplex& complex, const MedialAxisOptions& options, Monitor& monitor) {
-  MedialAxis axis = Axis(complex, monitor).run();
+MedialAxis checked_axis(const SimplicialComplex& complex, const PowerDiagram* diagram,
+                        const MedialAxisOptions& options, Monitor& monitor) {
+  MedialAxis axis = Axis(complex, diagram, monitor).run();
   if (const Betti found = axis_betti(axis, monitor); found != complex.betti) {
     const std::string cause =
         "the axis has " + describe(found) + ", but the union has " + describe(complex.betti);
@@ -182,6 +185,18 @@ MedialAxis medial_axis(const SimplicialComplex& complex, const MedialAxisOptions
   }
   monitor.step(1);
   return axis;
+}
+
+}  // namespace
+
+MedialAxis medial_axis(const SimplicialComplex& complex, const MedialAxisOptions& options, Monitor& monitor) {
+  return checked_axis(complex, nullptr, options, monitor);
+}
+
+MedialAxis medial_axis(const SimplicialComplex& complex, const PowerDiagram& diagram,
+                       const MedialAxisOptions& options, Monitor& monitor) {
+  check_diagram_of(diagram, complex);
+  return checked_axis(complex, &diagram, options, monitor);
 }
 
 }  // namespace ballflow::geometry

@@ -8,6 +8,7 @@
 
 #include "base/monitor.hpp"
 #include "types/medial_axis.hpp"
+#include "types/power_diagram.hpp"
 #include "types/simplicial_complex.hpp"
 
 namespace ballflow::geometry {
@@ -37,5 +38,9 @@ struct MedialAxisOptions {
 ///   which many touch in one point.
 /// - The complex must hold its invariants (see broken_invariant).
 MedialAxis medial_axis(const SimplicialComplex& complex, const MedialAxisOptions& options, Monitor& monitor);
+/// The same where the power diagram is at hand that the complex was read off. InputError when it is another
+/// one.
+MedialAxis medial_axis(const SimplicialComplex& complex, const PowerDiagram& diagram,
+                       const MedialAxisOptions& options, Monitor& monitor);
 
 }  // namespace ballflow::geometry

@@ -3,7 +3,7 @@
 #include <ballflow/sdk.hpp>
 
 #include "exact/cgal_version.hpp"
-#include "types/artifact_types.hpp"
+#include "types/power_diagram_type.hpp"
 
 namespace ballflow::nodes {
 namespace {
@@ -13,6 +13,7 @@ using geometry::MedialAxisOptions;
 
 struct MedialAxis {
   In<geometry::SimplicialComplex> complex;
+  In<geometry::PowerDiagram> diagram;
   Out<geometry::MedialAxis> axis;
   MedialAxisOptions options;
 
@@ -35,6 +36,9 @@ struct MedialAxis {
     d.library("CGAL", geometry::cgal_version());
     d.memory(1 << 20, 20);
     d.input("complex", &MedialAxis::complex).doc("the alpha-shape of the balls (node AlphaShape)");
+    d.input("diagram", &MedialAxis::diagram)
+        .optional()
+        .doc("the power diagram that the alpha-shape was read off: nothing is searched in it again");
     d.output("axis", &MedialAxis::axis)
         .doc("polygons, edges in no polygon and isolated vertices, with the radius of the inscribed ball");
     d.choice("on_mismatch", &MedialAxis::options, &MedialAxisOptions::on_mismatch,
@@ -44,7 +48,8 @@ struct MedialAxis {
   }
   void run(RunContext& context) {
     ContextMonitor monitor(context);
-    axis = geometry::medial_axis(*complex, options, monitor);
+    axis = diagram ? geometry::medial_axis(*complex, *diagram, options, monitor)
+                   : geometry::medial_axis(*complex, options, monitor);
     axis.summary("expected_euler_characteristic", complex->euler_characteristic());
   }
 };

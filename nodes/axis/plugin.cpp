@@ -1,7 +1,7 @@
 // The family "axis": the medial axis of a union of balls.
 #include <ballflow/sdk.hpp>
 
-#include "types/artifact_types.hpp"
+#include "types/power_diagram_type.hpp"
 
 namespace ballflow::nodes {
 const bf_node* medial_axis_entry();
@@ -12,4 +12,5 @@ BALLFLOW_PLUGIN(
     (std::vector<const bf_node*>{
         ballflow::nodes::medial_axis_entry(),
     }),
-    (ballflow::type_entries<ballflow::geometry::SimplicialComplex, ballflow::geometry::MedialAxis>()))
+    (ballflow::type_entries<ballflow::geometry::PowerDiagram, ballflow::geometry::SimplicialComplex,
+                            ballflow::geometry::MedialAxis>()))

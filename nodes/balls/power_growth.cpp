@@ -12,9 +12,9 @@
 #include <utility>
 
 #include "homology/inclusion_homology.hpp"
-#include "power/alpha_classes.hpp"
+#include "power/alpha_shape.hpp"
 #include "power/gabriel_points.hpp"
-#include "power/regular_cells.hpp"
+#include "power/union_betti.hpp"
 #include "search/box_tree.hpp"
 
 namespace ballflow::geometry {
@@ -67,15 +67,15 @@ class Growing {
     }
     start_.centers = balls_.centers;
     start_.radii = first_;
-    weights_ = ball_weights(start_, AlphaTolerance::none);
-    cells_ = regular_cells(start_.centers, weights_, triangulating);
-    complex_ = alpha_classes(cells_, start_.centers, weights_, classifying);
+    diagram_ = power_diagram(start_, {AlphaTolerance::none}, triangulating);
+    weights_ = diagram_.weights;
+    complex_ = alpha_shape(diagram_, classifying);
     result_.betti_before = result_.betti_after = complex_.betti;
   }
 
   void find_limits() {
     PartMonitor searching(monitor_, 0.45, 0.55);
-    const auto points = critical_gabriel_points(balls_.centers, weights_, cells_, searching);
+    const auto points = critical_gabriel_points(diagram_, searching);
     result_.limits = largest_radii(points, balls_.centers, monitor_);
     for (std::size_t i = 0; i < balls_.size(); ++i) {
       last_.push_back(std::max(first_[i], std::min(wished_[i], result_.limits[i])));
@@ -106,7 +106,7 @@ class Growing {
     monitor_.step(0.6 + 0.04 * static_cast<double>(result_.unions));
     std::vector<double> added = added_;
     std::vector<std::uint8_t> ceased = ceased_, hidden(balls_.size(), 1);
-    for (const auto& cell : cells_.cells) {
+    for (const auto& cell : diagram_.cells) {
       for (const std::int32_t i : cell) {
         if (i < 0) continue;
         hidden[at(i)] = 0;
@@ -143,15 +143,16 @@ class Growing {
     Balls both;
     both.centers = std::move(centers);
     both.radii = std::move(all);
-    SimplicialComplex grown = alpha_shape(both, {AlphaTolerance::none}, part);
-    const auto betti = grown.betti;
+    PowerDiagram grown = power_diagram(both, {AlphaTolerance::none}, part);
+    const auto betti = union_betti(grown, part);
     ++result_.unions;
     if (betti != result_.betti_before) return false;
     std::vector<std::int32_t> ids(start_.size());
     std::iota(ids.begin(), ids.end(), static_cast<std::int32_t>(ids.size()));
     PartMonitor still(monitor_, from + 0.04, from + 0.04);
     const UnionOfBalls whole(both, std::move(grown), still);
-    if (!Inclusion(whole, ids, UnionOfBalls(start_, complex_, still)).homology().isomorphism()) return false;
+    if (!Inclusion(whole, ids, UnionOfBalls(start_, diagram_, complex_, still)).homology().isomorphism())
+      return false;
     result_.betti_after = betti;
     result_.radii = std::move(radii);
     return true;
@@ -173,12 +174,12 @@ class Growing {
   const Balls& balls_;
   std::span<const double> wished_;
   Monitor& monitor_;
-  Balls start_;                // with the tolerance
-  SimplicialComplex complex_;  // of their union
-  Array<double> weights_;      // of the balls at the start
-  std::vector<double> first_;  // radii at the start
-  std::vector<double> last_;   // radii at which balls cease by themselves
-  RegularCells cells_;
+  Balls start_;                       // with the tolerance
+  PowerDiagram diagram_;              // theirs
+  SimplicialComplex complex_;         // of their union
+  Array<double> weights_;             // of the balls at the start
+  std::vector<double> first_;         // radii at the start
+  std::vector<double> last_;          // radii at which balls cease by themselves
   std::vector<double> own_;           // what is added to weights when balls cease by themselves
   std::vector<double> added_;         // what is added
   std::vector<std::uint8_t> ceased_;  // 1 for balls that take their neighbours along

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/monitor.hpp"
-#include "power/alpha_shape.hpp"
+#include "power/power_diagram.hpp"
 #include "types/balls.hpp"
 #include "types/growth.hpp"
 

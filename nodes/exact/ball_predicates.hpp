@@ -41,4 +41,17 @@ class BallPredicates {
   bool ordinary_ = true;  // no coordinate beyond 1e20, no weight beyond 1e40: double arithmetic is tried
 };
 
+/// A point with a weight: a ball by its centre and squared radius.
+struct WeightedPoint {
+  Vec3 center;
+  double weight = 0;
+};
+
+/// Whether t has a negative (1) or a positive (-1) power to the sphere that is orthogonal to p, q, r and s,
+/// which are positively oriented; for negatively oriented ones the other way round. 0 where doubles, and
+/// twice as many bits, do not tell: nearly always because the power is 0 or the centres are coplanar. No
+/// coordinate is beyond 1e20 and no weight beyond 1e40.
+int quick_power_side(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r,
+                     const WeightedPoint& s, const WeightedPoint& t);
+
 }  // namespace ballflow::geometry

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "power/alpha_shape.hpp"
+#include "power/union_betti.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -20,11 +21,16 @@ std::int64_t distinct(std::vector<std::int32_t> values) {
 }  // namespace
 
 UnionOfBalls::UnionOfBalls(const Balls& balls, Monitor& monitor)
-    : UnionOfBalls(balls, alpha_shape(balls, {}, monitor), monitor) {}
+    : UnionOfBalls(balls, power_diagram(balls, {}, monitor), monitor) {}
 
-UnionOfBalls::UnionOfBalls(const Balls& balls, SimplicialComplex complex, Monitor& monitor)
+UnionOfBalls::UnionOfBalls(const Balls& balls, PowerDiagram diagram, Monitor& monitor)
+    : UnionOfBalls(balls, diagram, alpha_shape(diagram, monitor), monitor) {}
+
+UnionOfBalls::UnionOfBalls(const Balls& balls, PowerDiagram diagram, SimplicialComplex complex,
+                           Monitor& monitor)
     : monitor_(monitor),
       balls_(balls),
+      diagram_(std::make_unique<const PowerDiagram>(std::move(diagram))),
       complex_(std::make_unique<const SimplicialComplex>(std::move(complex))),
       loops_(std::make_unique<FirstHomology>(*complex_, monitor)) {
   // Two computations that have nothing in common: linear algebra here, components and cavities there.
@@ -35,20 +41,13 @@ UnionOfBalls::UnionOfBalls(const Balls& balls, SimplicialComplex complex, Monito
   }
 }
 
-const RegularCells& UnionOfBalls::cells() const {
-  if (!cells_) {
-    cells_ = std::make_unique<RegularCells>(regular_cells(complex_->centers, complex_->weights, monitor_));
-  }
-  return *cells_;
-}
-
 const Voids& UnionOfBalls::voids() const {
-  if (!voids_) voids_ = std::make_unique<Voids>(*complex_, cells(), monitor_);
+  if (!voids_) voids_ = std::make_unique<Voids>(*diagram_, monitor_);
   return *voids_;
 }
 
 const PowerWalk& UnionOfBalls::walk() const {
-  if (!walk_) walk_ = std::make_unique<PowerWalk>(complex_->centers, complex_->weights, cells());
+  if (!walk_) walk_ = std::make_unique<PowerWalk>(*diagram_);
   return *walk_;
 }
 
@@ -68,9 +67,9 @@ InclusionHomology UnionOfBalls::inclusion_of(std::span<const std::int32_t> part)
 
 bool UnionOfBalls::isomorphic_to(std::span<const std::int32_t> part) const {
   const Balls balls = select(balls_, part);
-  SimplicialComplex complex = alpha_shape(balls, {}, monitor_);
-  if (complex.betti != complex_->betti) return false;
-  return Inclusion(*this, part, UnionOfBalls(balls, std::move(complex), monitor_)).homology().isomorphism();
+  PowerDiagram diagram = power_diagram(balls, {}, monitor_);
+  if (union_betti(diagram, monitor_) != complex_->betti) return false;
+  return Inclusion(*this, part, UnionOfBalls(balls, std::move(diagram), monitor_)).homology().isomorphism();
 }
 
 Inclusion::Inclusion(const UnionOfBalls& whole, std::span<const std::int32_t> ids)

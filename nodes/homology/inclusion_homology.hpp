@@ -14,9 +14,9 @@
 #include "base/monitor.hpp"
 #include "homology/first_homology.hpp"
 #include "power/power_walk.hpp"
-#include "power/regular_cells.hpp"
 #include "power/voids.hpp"
 #include "types/balls.hpp"
+#include "types/power_diagram.hpp"
 #include "types/simplicial_complex.hpp"
 #include "types/topology_check.hpp"
 
@@ -37,8 +37,10 @@ class UnionOfBalls {
   /// Any balls that keep their invariants, as for alpha_shape; radii are taken as they are. The monitor is
   /// looked at as long as this object lives.
   UnionOfBalls(const Balls& balls, Monitor& monitor);
-  /// The same with the alpha-shape of the balls, where it is known.
-  UnionOfBalls(const Balls& balls, SimplicialComplex complex, Monitor& monitor);
+  /// The same where the power diagram of the balls is known, and their alpha-shape. The diagram is taken with
+  /// the tolerance none.
+  UnionOfBalls(const Balls& balls, PowerDiagram diagram, Monitor& monitor);
+  UnionOfBalls(const Balls& balls, PowerDiagram diagram, SimplicialComplex complex, Monitor& monitor);
 
   const Balls& balls() const { return balls_; }
   const SimplicialComplex& complex() const { return *complex_; }
@@ -55,13 +57,11 @@ class UnionOfBalls {
 
  private:
   friend class Inclusion;
-  const RegularCells& cells() const;
-
   Monitor& monitor_;
   Balls balls_;
-  std::unique_ptr<const SimplicialComplex> complex_;  // what voids refer to, wherever this object moves
+  std::unique_ptr<const PowerDiagram> diagram_;  // what voids and walks refer to, wherever this object moves
+  std::unique_ptr<const SimplicialComplex> complex_;
   std::unique_ptr<FirstHomology> loops_;
-  mutable std::unique_ptr<RegularCells> cells_;
   mutable std::unique_ptr<Voids> voids_;
   mutable std::unique_ptr<PowerWalk> walk_;
   mutable std::vector<std::int32_t> vertex_at_;  // per ball, -1 where it was not asked for

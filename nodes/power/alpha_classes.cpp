@@ -117,13 +117,12 @@ class Side {
 /// lie, ascending, the triangles of the result and all but one kind of the sides from which edges follow.
 class Classification {
  public:
-  Classification(const RegularCells& cells, const BallPredicates& predicates, std::size_t balls,
-                 Monitor& monitor)
-      : mesh_(cells),
+  Classification(const PowerDiagram& diagram, const BallPredicates& predicates, Monitor& monitor)
+      : mesh_(diagram),
         predicates_(predicates),
         monitor_(monitor),
-        vertices_(balls, Vertex::hidden),
-        cofaces_(balls) {
+        vertices_(diagram.centers.size(), Vertex::hidden),
+        cofaces_(diagram.centers.size()) {
     for (const Cell& cell : mesh_.cells) {
       for (const std::int32_t v : cell) {
         if (v >= 0) vertices_[at(v)] = Vertex::seen;
@@ -171,21 +170,19 @@ class Classification {
     Status status;
   };
 
+  bool in_complex(std::size_t c) const { return (mesh_.in_complex[c] & PowerDiagram::whole) != 0; }
   bool finite(const Cell& cell) const {
-    return std::find(cell.begin(), cell.end(), RegularCells::infinite) == cell.end();
+    return std::find(cell.begin(), cell.end(), PowerDiagram::infinite) == cell.end();
   }
 
   void classify_cells() {
-    in_complex_.assign(mesh_.size(), false);
     std::vector<Cell> inside;
     Lists<Facet> by_lowest(vertices_.size());
     for (std::size_t c = 0; c < mesh_.size(); ++c) {
       if (c % 4096 == 0) monitor_.step(0.25 * static_cast<double>(c) / static_cast<double>(mesh_.size()));
+      if (!in_complex(c)) continue;
       Cell cell = mesh_.cells[c];
-      if (!finite(cell)) continue;
       sort(cell);
-      if (!predicates_.meets(cell)) continue;
-      in_complex_[c] = true;
       inside.push_back(cell);
       by_lowest.count(cell[0]);
     }
@@ -221,19 +218,14 @@ class Classification {
     const Cell& cell = mesh_.cells[c];
     Facet facet{cell[(i + 1) & 3], cell[(i + 2) & 3], cell[(i + 3) & 3]};
     sort(facet);
-    if (facet[0] == RegularCells::infinite) return false;
+    if (facet[0] == PowerDiagram::infinite) return false;
     Status status = Status::out;
-    if (in_complex_[c] || in_complex_[n]) {
-      status = in_complex_[c] && in_complex_[n] ? Status::interior : Status::regular;
-    } else if (predicates_.meets(facet)) {
-      const auto& around = mesh_.neighbors[n];
-      const auto back =
-          std::find(around.begin(), around.end(), static_cast<std::int32_t>(c)) - around.begin();
-      const std::int32_t opposite[] = {cell[i], mesh_.cells[n][static_cast<std::size_t>(back)]};
-      const bool attached = std::any_of(std::begin(opposite), std::end(opposite), [&](std::int32_t other) {
-        return other != RegularCells::infinite && predicates_.attaches(facet, other);
-      });
-      if (!attached) status = Status::singular;
+    if (in_complex(c) && in_complex(n)) {
+      status = Status::interior;
+    } else if (in_complex(c) || in_complex(n)) {
+      status = Status::regular;
+    } else if ((mesh_.in_complex[c] >> i & 1) != 0) {
+      status = Status::singular;
     }
     facets_.push_back({facet, status});
     return status != Status::out;
@@ -242,16 +234,13 @@ class Classification {
   /// Simplices of the highest dimension where that is less than 3; none is interior.
   template <std::size_t N, class Add>
   void classify_top(const Add& add) {
-    std::vector<std::array<std::int32_t, N>> simplices;
-    for (const Cell& cell : mesh_.cells) {
+    for (std::size_t c = 0; c < mesh_.size(); ++c) {  // in lexicographic order
+      const Cell& cell = mesh_.cells[c];
       if (!finite(cell)) continue;
       std::array<std::int32_t, N> top{};
       std::copy_n(cell.begin(), N, top.begin());
-      std::sort(top.begin(), top.end());
-      simplices.push_back(top);
+      add(top, in_complex(c) ? Status::singular : Status::out);
     }
-    std::sort(simplices.begin(), simplices.end());
-    for (const auto& top : simplices) add(top, predicates_.meets(top) ? Status::singular : Status::out);
   }
 
   /// Every edge is a side of a facet.
@@ -355,10 +344,9 @@ class Classification {
     }
   }
 
-  const RegularCells& mesh_;
+  const PowerDiagram& mesh_;
   const BallPredicates& predicates_;
   Monitor& monitor_;
-  std::vector<bool> in_complex_;         // per cell
   std::vector<ClassifiedFacet> facets_;  // until edges are classified
   std::vector<Edge> edges_out_;          // edges that are not in the complex
   std::vector<Vertex> vertices_;         // per ball
@@ -375,12 +363,12 @@ class Classification {
 
 }  // namespace
 
-SimplicialComplex alpha_classes(const RegularCells& cells, const Array<Vec3>& centers,
-                                const Array<double>& weights, Monitor& monitor) {
-  const BallPredicates predicates(centers, weights);
-  SimplicialComplex complex = Classification(cells, predicates, centers.size(), monitor).result();
-  complex.centers = centers;
-  complex.weights = weights;
+SimplicialComplex alpha_classes(const PowerDiagram& diagram, Monitor& monitor) {
+  const BallPredicates predicates(diagram.centers, diagram.weights);
+  SimplicialComplex complex = Classification(diagram, predicates, monitor).result();
+  complex.centers = diagram.centers;
+  complex.weights = diagram.weights;
+  complex.delta = diagram.delta;
   return complex;
 }
 

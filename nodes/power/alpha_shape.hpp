@@ -8,31 +8,15 @@
 // thesis, 2.6) and is homotopy equivalent to the union of the closed balls.
 #pragma once
 
-#include <vector>
-
 #include "base/monitor.hpp"
+#include "power/power_diagram.hpp"
 #include "types/balls.hpp"
+#include "types/power_diagram.hpp"
 #include "types/simplicial_complex.hpp"
 
 namespace ballflow::geometry {
 
-/// What is added to every squared radius before anything is decided.
-enum class AlphaTolerance {
-  none,   // nothing: balls are what their radii say
-  polar,  // 2^-36 L^2, L the longest edge of the bounding box of the balls
-};
-
-struct AlphaShapeOptions {
-  // Polar balls as they come from a Voronoi diagram meet in the samples they pass through, four and more in
-  // one point, so that rounding decides which of them touch. `polar` lets all of them overlap by far more
-  // than rounding and far less than a feature. Enlarged balls need `none`.
-  AlphaTolerance tolerance = AlphaTolerance::none;
-};
-
-/// The weights of the balls in their power diagram: squared radii and the tolerance.
-/// Throws InputError for balls that break their invariants or have a radius whose square overflows, and for
-/// 2^31 balls or more.
-std::vector<double> ball_weights(const Balls& balls, AlphaTolerance tolerance);
+using AlphaShapeOptions = PowerDiagramOptions;
 
 /// The dual complex of `balls`, with classes of simplices and Betti numbers of the union.
 /// - Accepts no ball, one ball, collinear and coplanar centers, radius 0, nested, touching, equal balls.
@@ -43,5 +27,8 @@ std::vector<double> ball_weights(const Balls& balls, AlphaTolerance tolerance);
 /// - Where all centers lie in a plane no simplex is interior, and triangles are singular.
 /// - Throws InputError for balls that break their invariants or have a radius whose square overflows.
 SimplicialComplex alpha_shape(const Balls& balls, const AlphaShapeOptions& options, Monitor& monitor);
+
+/// The same where the power diagram of the balls is known: nothing is triangulated.
+SimplicialComplex alpha_shape(const PowerDiagram& diagram, Monitor& monitor);
 
 }  // namespace ballflow::geometry

@@ -33,13 +33,12 @@ std::array<std::int32_t, N - 1> without(const std::array<std::int32_t, N>& simpl
 
 class Search {
  public:
-  Search(std::span<const Vec3> centers, std::span<const double> weights, const RegularCells& cells,
-         Monitor& monitor)
-      : centers_(centers),
-        weights_(weights),
-        mesh_(cells),
+  Search(const PowerDiagram& diagram, Monitor& monitor)
+      : centers_(diagram.centers),
+        weights_(diagram.weights),
+        mesh_(diagram),
         monitor_(monitor),
-        predicates_(centers, weights) {}
+        predicates_(diagram.centers, diagram.weights) {}
 
   std::vector<Vec3> run() {
     std::vector<Facet> facets;
@@ -95,7 +94,7 @@ class Search {
   }
 
   bool finite(const Cell& cell) const {
-    return std::find(cell.begin(), cell.end(), RegularCells::infinite) == cell.end();
+    return std::find(cell.begin(), cell.end(), PowerDiagram::infinite) == cell.end();
   }
 
   /// Simplices of the highest dimension where that is less than 3: no ball attaches them.
@@ -119,20 +118,21 @@ class Search {
     for (std::size_t c = 0; c < mesh_.size(); ++c) {
       if (c % 4096 == 0) monitor_.step(0.7 * static_cast<double>(c) / static_cast<double>(mesh_.size()));
       const Cell& cell = mesh_.cells[c];
-      if (finite(cell) && apart(cell) && holds_its_center(cell)) add(cell);
+      if (finite(cell) && (mesh_.in_complex[c] & PowerDiagram::whole) == 0 && holds_its_center(cell))
+        add(cell);
       for (std::size_t i = 0; i < 4; ++i) {
         const std::size_t n = at(mesh_.neighbors[c][i]);
         if (n < c) continue;  // met from the other side
         const Facet facet = without(cell, i);
-        if (std::find(facet.begin(), facet.end(), RegularCells::infinite) != facet.end()) continue;
+        if (std::find(facet.begin(), facet.end(), PowerDiagram::infinite) != facet.end()) continue;
         facets.push_back(facet);
-        if (!apart(facet) || !holds_its_center(facet)) continue;
+        if ((mesh_.in_complex[c] >> i & 1) != 0 || !apart(facet) || !holds_its_center(facet)) continue;
         const auto& around = mesh_.neighbors[n];
         const auto back =
             std::find(around.begin(), around.end(), static_cast<std::int32_t>(c)) - around.begin();
         const std::int32_t opposite[] = {cell[i], mesh_.cells[n][static_cast<std::size_t>(back)]};
         if (std::none_of(std::begin(opposite), std::end(opposite), [&](std::int32_t other) {
-              return other != RegularCells::infinite && predicates_.attaches(facet, other);
+              return other != PowerDiagram::infinite && predicates_.attaches(facet, other);
             })) {
           add(facet);
         }
@@ -182,7 +182,7 @@ class Search {
 
   std::span<const Vec3> centers_;
   std::span<const double> weights_;
-  const RegularCells& mesh_;
+  const PowerDiagram& mesh_;
   Monitor& monitor_;
   BallPredicates predicates_;
   std::vector<Vec3> points_;
@@ -190,9 +190,8 @@ class Search {
 
 }  // namespace
 
-std::vector<Vec3> critical_gabriel_points(std::span<const Vec3> centers, std::span<const double> weights,
-                                          const RegularCells& cells, Monitor& monitor) {
-  return Search(centers, weights, cells, monitor).run();
+std::vector<Vec3> critical_gabriel_points(const PowerDiagram& diagram, Monitor& monitor) {
+  return Search(diagram, monitor).run();
 }
 
 }  // namespace ballflow::geometry

@@ -92,13 +92,12 @@ int compare_times(Vec3 p, Vec3 q, const Ball& k, const Ball& l, const Ball& m) {
 
 }  // namespace
 
-PowerWalk::PowerWalk(std::span<const Vec3> centers, std::span<const double> weights,
-                     const RegularCells& cells)
-    : centers_(centers), weights_(weights), begin_(centers.size() + 1) {
+PowerWalk::PowerWalk(const PowerDiagram& diagram)
+    : centers_(diagram.centers), weights_(diagram.weights), begin_(centers_.size() + 1) {
   // All pairs of corners of cells, by their first ball; then each list without repetition.
-  std::vector<std::size_t> end(centers.size() + 2);
-  const auto for_each_pair = [&cells](const auto& visit) {
-    for (const auto& cell : cells.cells) {
+  std::vector<std::size_t> end(centers_.size() + 2);
+  const auto for_each_pair = [&diagram](const auto& visit) {
+    for (const auto& cell : diagram.cells) {
       for (const std::int32_t u : cell) {
         for (const std::int32_t v : cell) {
           if (u >= 0 && v >= 0 && u != v) visit(u, v);
@@ -111,7 +110,7 @@ PowerWalk::PowerWalk(std::span<const Vec3> centers, std::span<const double> weig
   neighbors_.resize(end.back());
   for_each_pair([&](std::int32_t u, std::int32_t v) { neighbors_[end[at(u) + 1]++] = v; });
   std::size_t kept = 0, first = 0;
-  for (std::size_t u = 0; u < centers.size(); ++u) {
+  for (std::size_t u = 0; u < centers_.size(); ++u) {
     const auto from = neighbors_.begin() + static_cast<std::ptrdiff_t>(first);
     const auto to = neighbors_.begin() + static_cast<std::ptrdiff_t>(end[u + 1]);
     first = end[u + 1];
@@ -123,7 +122,7 @@ PowerWalk::PowerWalk(std::span<const Vec3> centers, std::span<const double> weig
   }
   begin_.back() = kept;
   neighbors_.resize(kept);
-  for (const auto& cell : cells.cells) {
+  for (const auto& cell : diagram.cells) {
     for (const std::int32_t u : cell) {
       if (u >= 0 && (any_ < 0 || u < any_)) any_ = u;
     }

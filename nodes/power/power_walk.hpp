@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/vec3.hpp"
-#include "power/regular_cells.hpp"
+#include "types/power_diagram.hpp"
 
 namespace ballflow::geometry {
 
@@ -17,8 +17,8 @@ namespace ballflow::geometry {
 /// balls too, where CGAL breaks ties between cells symbolically.
 class PowerWalk {
  public:
-  /// Keeps references to all three.
-  PowerWalk(std::span<const Vec3> centers, std::span<const double> weights, const RegularCells& cells);
+  /// Keeps a reference.
+  explicit PowerWalk(const PowerDiagram& diagram);
 
   /// Any ball that is in a cell of the triangulation; -1 for no balls.
   std::int32_t any() const { return any_; }
@@ -44,8 +44,8 @@ class PowerWalk {
  private:
   std::span<const std::int32_t> around(std::int32_t ball) const;
 
-  std::span<const Vec3> centers_;
-  std::span<const double> weights_;
+  const Array<Vec3>& centers_;
+  const Array<double>& weights_;
   std::vector<std::size_t> begin_;       // neighbours of ball i: neighbors_[begin_[i] .. begin_[i + 1])
   std::vector<std::int32_t> neighbors_;  // ascending
   std::int32_t any_ = -1;

@@ -8,6 +8,7 @@
 
 #include "base/monitor.hpp"
 #include "base/vec3.hpp"
+#include "types/power_diagram.hpp"
 
 namespace ballflow::geometry {
 
@@ -23,6 +24,20 @@ struct RegularCells {
   // Their order has no meaning.
   std::vector<std::array<std::int32_t, 4>> cells;
   std::vector<std::array<std::int32_t, 4>> neighbors;  // cell indices
+
+  std::size_t size() const { return cells.size(); }
+};
+
+/// Cells and neighbours wherever they are kept; all that is said about RegularCells but the order holds for
+/// both.
+struct CellTable {
+  CellTable(const RegularCells& flat)  // NOLINT(google-explicit-constructor): a view
+      : dimension(flat.dimension), cells(flat.cells), neighbors(flat.neighbors) {}
+  CellTable(const PowerDiagram& diagram)  // NOLINT(google-explicit-constructor): a view
+      : dimension(diagram.dimension), cells(diagram.cells), neighbors(diagram.neighbors) {}
+
+  int dimension;
+  std::span<const std::array<std::int32_t, 4>> cells, neighbors;
 
   std::size_t size() const { return cells.size(); }
 };

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
+#include <utility>
 
 #include "base/disjoint_sets.hpp"
 
@@ -131,6 +133,18 @@ class Chains {
   DisjointSets chains_;
 };
 
+/// `filled`: per triangle, whether a tetrahedron lies on side -1 and on side 1.
+std::vector<ExposedSide> names_of(const std::vector<std::array<bool, 2>>& filled) {
+  std::vector<ExposedSide> named;
+  for (std::size_t i = 0; i < filled.size(); ++i) {
+    const bool singular = !filled[i][0] && !filled[i][1];
+    for (const std::int8_t side : {std::int8_t{-1}, std::int8_t{1}}) {
+      if (!filled[i][side > 0 ? 1 : 0]) named.push_back({static_cast<std::int32_t>(i), side, !singular});
+    }
+  }
+  return named;
+}
+
 }  // namespace
 
 std::vector<ExposedSide> exposed_sides(const SimplicialComplex& complex, Monitor& monitor) {
@@ -152,14 +166,50 @@ std::vector<ExposedSide> exposed_sides(const SimplicialComplex& complex, Monitor
       filled[static_cast<std::size_t>(at - all.begin())][side == CGAL::POSITIVE ? 1 : 0] = true;
     }
   }
-  std::vector<ExposedSide> named;
-  for (std::size_t i = 0; i < n; ++i) {
-    const bool singular = !filled[i][0] && !filled[i][1];
-    for (const std::int8_t side : {std::int8_t{-1}, std::int8_t{1}}) {
-      if (!filled[i][side > 0 ? 1 : 0]) named.push_back({static_cast<std::int32_t>(i), side, !singular});
+  return names_of(filled);
+}
+
+std::vector<ExposedSide> exposed_sides(const SimplicialComplex& complex, const PowerDiagram& diagram,
+                                       Monitor& monitor) {
+  std::vector<std::array<bool, 2>> filled(complex.triangles.size(), {false, false});
+  if (diagram.dimension < 3) return names_of(filled);
+  // The facets in the complex, each by its ascending balls once: sorted, they are the triangles of the
+  // complex.
+  struct Facet {
+    std::array<std::int32_t, 3> balls;
+    std::array<bool, 2> filled{false, false};
+  };
+  std::vector<Facet> facets;
+  facets.reserve(complex.triangles.size());
+  Lookout look(monitor);
+  for (std::size_t c = 0; c < diagram.size(); ++c) {
+    look(16);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto other = static_cast<std::size_t>(diagram.neighbors[c][k]);
+      if (other < c || (diagram.in_complex[c] >> k & 1) == 0) continue;
+      // Positively oriented cells: the corner opposite lies on the positive side of the facet as it follows
+      // from the others in their order, turned once for every exchange, and for every step that k is before
+      // the end.
+      const auto& cell = diagram.cells[c];
+      Facet facet{{cell[k == 0 ? 1 : 0], cell[k <= 1 ? 2 : 1], cell[k <= 2 ? 3 : 2]}};
+      bool positive = k % 2 == 1;
+      for (const std::size_t i : {0, 1, 0}) {
+        if (facet.balls[i] < facet.balls[i + 1]) continue;
+        std::swap(facet.balls[i], facet.balls[i + 1]);
+        positive = !positive;
+      }
+      if ((diagram.in_complex[c] & PowerDiagram::whole) != 0) facet.filled[positive ? 1 : 0] = true;
+      if ((diagram.in_complex[other] & PowerDiagram::whole) != 0) facet.filled[positive ? 0 : 1] = true;
+      facets.push_back(facet);
     }
   }
-  return named;
+  monitor.step(0.2);
+  std::sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) { return a.balls < b.balls; });
+  if (facets.size() != filled.size())
+    throw std::logic_error("the power diagram is not the one that the complex was read off");
+  for (std::size_t i = 0; i < facets.size(); ++i) filled[i] = facets[i].filled;
+  monitor.step(0.4);
+  return names_of(filled);
 }
 
 Vec3 boundary_vertex(const SimplicialComplex& complex, const ExposedSide& side) {
@@ -167,7 +217,11 @@ Vec3 boundary_vertex(const SimplicialComplex& complex, const ExposedSide& side) 
 }
 
 UnionVertices union_vertices(const SimplicialComplex& complex, double merge_distance, Monitor& monitor) {
-  const std::vector<ExposedSide> named = exposed_sides(complex, monitor);
+  return union_vertices(complex, exposed_sides(complex, monitor), merge_distance, monitor);
+}
+
+UnionVertices union_vertices(const SimplicialComplex& complex, const std::vector<ExposedSide>& named,
+                             double merge_distance, Monitor& monitor) {
   std::vector<Vec3> points;
   points.reserve(named.size());
   for (const ExposedSide& v : named) {

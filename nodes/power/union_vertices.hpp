@@ -8,6 +8,7 @@
 
 #include "base/monitor.hpp"
 #include "base/vec3.hpp"
+#include "types/power_diagram.hpp"
 #include "types/simplicial_complex.hpp"
 
 namespace ballflow::geometry {
@@ -58,6 +59,10 @@ struct ExposedSide {
 
 /// All names, by triangle, side -1 first. Same preconditions as union_vertices.
 std::vector<ExposedSide> exposed_sides(const SimplicialComplex& complex, Monitor& monitor = no_monitor());
+/// The same where the power diagram is known that `complex` was read off: nothing is searched, and no
+/// orientation computed.
+std::vector<ExposedSide> exposed_sides(const SimplicialComplex& complex, const PowerDiagram& diagram,
+                                       Monitor& monitor = no_monitor());
 
 /// An order of points that keeps the order of their mirror images in coordinate planes, unless they are
 /// images of each other. What is computed from points in this order is rounded alike however they are
@@ -74,5 +79,8 @@ Vec3 boundary_vertex(const SimplicialComplex& complex, const ExposedSide& side);
 /// must hold its invariants (see broken_invariant) and its tetrahedra must not be flat.
 UnionVertices union_vertices(const SimplicialComplex& complex, double merge_distance,
                              Monitor& monitor = no_monitor());
+/// The same from the names that exposed_sides() found.
+UnionVertices union_vertices(const SimplicialComplex& complex, const std::vector<ExposedSide>& named,
+                             double merge_distance, Monitor& monitor = no_monitor());
 
 }  // namespace ballflow::geometry

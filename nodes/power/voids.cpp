@@ -3,7 +3,6 @@
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 
 #include <algorithm>
-#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -18,9 +17,9 @@ std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 Point exact(Vec3 p) { return {p.x, p.y, p.z}; }
 
 /// The point that has equal power to four balls.
-Point equal_power(const SimplicialComplex& complex, const Voids::Cell& cell) {
+Point equal_power(const PowerDiagram& diagram, const Voids::Cell& cell) {
   const auto ball = [&](std::size_t k) {
-    return Exact::Weighted_point_3(exact(complex.centers[at(cell[k])]), complex.weights[at(cell[k])]);
+    return Exact::Weighted_point_3(exact(diagram.centers[at(cell[k])]), diagram.weights[at(cell[k])]);
   };
   return Exact().construct_weighted_circumcenter_3_object()(ball(0), ball(1), ball(2), ball(3));
 }
@@ -36,75 +35,40 @@ Voids::Cell sorted(Voids::Cell cell) {
 
 }  // namespace
 
-Voids::Voids(const SimplicialComplex& complex, const RegularCells& cells, Monitor& monitor)
-    : complex_(complex), cells_(cells) {
-  cells_of_.resize(1);
-  if (cells.dimension < 3) return;
-  Lookout look(monitor);
-  const auto has = [](const auto& list, const auto& simplex) {
-    return std::binary_search(list.begin(), list.end(), simplex);
-  };
-  const std::size_t n = cells.size();
-  std::vector<bool> in_complex(n);
-  for (std::size_t c = 0; c < n; ++c) {
-    look(32);
-    in_complex[c] = finite(cells.cells[c]) && has(complex.tetrahedra, sorted(cells.cells[c]));
+Voids::Voids(const PowerDiagram& diagram, Monitor& monitor) : diagram_(diagram) {
+  if (diagram.dimension < 3) {
+    cells_of_.resize(1);
+    return;
   }
-  // Flood every void from its first cell.
-  label_.assign(n, -1);
-  std::vector<std::vector<std::size_t>> members;
+  // Flood every void from its first cell. Infinite cells come first, so that the outer one has number 0, and
+  // the others follow in the order of the cells.
+  Lookout look(monitor);
+  label_.assign(diagram.size(), -1);
   std::vector<std::size_t> queue;
-  std::size_t outside = 0;
-  for (std::size_t start = 0; start < n; ++start) {
-    if (in_complex[start] || label_[start] >= 0) continue;
-    const auto label = static_cast<std::int32_t>(members.size());
+  std::int32_t labels = 0;
+  for (std::size_t start = 0; start < diagram.size(); ++start) {
+    if (label_[start] >= 0 || (diagram.in_complex[start] & PowerDiagram::whole) != 0) continue;
+    const std::int32_t label = labels++;
     label_[start] = label;
     queue.assign(1, start);
     for (std::size_t i = 0; i < queue.size(); ++i) {
       const std::size_t c = queue[i];
-      look(128);
+      look(32);
       for (std::size_t k = 0; k < 4; ++k) {
-        const std::size_t next = at(cells.neighbors[c][k]);
-        if (in_complex[next] || label_[next] >= 0 || !open(c, k)) continue;
+        if (!open(c, k)) continue;  // cells in K have no open facet
+        const std::size_t next = at(diagram.neighbors[c][k]);
+        if (label_[next] >= 0) continue;
         label_[next] = label;
         queue.push_back(next);
       }
     }
-    if (std::any_of(queue.begin(), queue.end(), [&](std::size_t c) { return !finite(cells.cells[c]); })) {
-      outside = members.size();
-    }
-    members.push_back(queue);
   }
-  // Number them by their smallest cells: the order of the cells of a triangulation means nothing.
-  std::vector<std::pair<std::vector<Cell>, std::int32_t>> inner;
-  for (std::size_t m = 0; m < members.size(); ++m) {
-    std::vector<Cell> list;
-    for (const std::size_t c : members[m]) {
-      if (finite(cells.cells[c])) list.push_back(sorted(cells.cells[c]));
-    }
-    std::sort(list.begin(), list.end());
-    if (m == outside) {
-      cells_of_[0] = std::move(list);
-    } else {
-      inner.emplace_back(std::move(list), static_cast<std::int32_t>(m));
-    }
+  cells_of_.resize(at(labels));
+  for (std::size_t c = 0; c < diagram.size(); ++c) {
+    look(8);
+    if (label_[c] >= 0 && finite(diagram.cells[c]))
+      cells_of_[at(label_[c])].push_back(sorted(diagram.cells[c]));
   }
-  std::sort(inner.begin(), inner.end(), [](const auto& a, const auto& b) { return a.first[0] < b.first[0]; });
-  std::vector<std::int32_t> number(members.size(), outer);
-  for (auto& [list, label] : inner) {
-    number[at(label)] = count();
-    cells_of_.push_back(std::move(list));
-  }
-  for (std::int32_t& label : label_) {
-    if (label >= 0) label = number[at(label)];
-  }
-}
-
-bool Voids::open(std::size_t c, std::size_t k) const {
-  const Cell& cell = cells_.cells[c];
-  std::array<std::int32_t, 3> facet{cell[(k + 1) & 3], cell[(k + 2) & 3], cell[(k + 3) & 3]};
-  std::sort(facet.begin(), facet.end());
-  return facet[0] < 0 || !std::binary_search(complex_.triangles.begin(), complex_.triangles.end(), facet);
 }
 
 std::vector<Voids::Place> Voids::inside(const Voids& other) const {
@@ -116,27 +80,27 @@ std::vector<Voids::Place> Voids::inside(const Voids& other) const {
 std::vector<Voids::Cell> Voids::between(const Place& a, const Place& b) const {
   if (a.cell == Place::outside) return b.cell == Place::outside ? std::vector<Cell>() : between(b, a);
   // Layer by layer from a; each layer in the order of its corners, since that of cells means nothing.
-  std::vector<std::int32_t> before(cells_.size(), -1);
+  std::vector<std::int32_t> before(diagram_.size(), -1);
   std::vector<std::int32_t> layer{a.cell}, next;
   before[at(a.cell)] = a.cell;
   const auto arrived = [&](std::int32_t c) {
-    return b.cell == Place::outside ? !finite(cells_.cells[at(c)]) : c == b.cell;
+    return b.cell == Place::outside ? !finite(diagram_.cells[at(c)]) : c == b.cell;
   };
   while (!layer.empty()) {
     std::sort(layer.begin(), layer.end(), [this](std::int32_t c, std::int32_t d) {
-      return sorted(cells_.cells[at(c)]) < sorted(cells_.cells[at(d)]);
+      return sorted(diagram_.cells[at(c)]) < sorted(diagram_.cells[at(d)]);
     });
     next.clear();
     for (const std::int32_t c : layer) {
       if (arrived(c)) {
         std::vector<Cell> way;
         for (std::int32_t step = c;; step = before[at(step)]) {
-          if (finite(cells_.cells[at(step)])) way.push_back(sorted(cells_.cells[at(step)]));
+          if (finite(diagram_.cells[at(step)])) way.push_back(sorted(diagram_.cells[at(step)]));
           if (step == a.cell) return way;
         }
       }
       for (std::size_t k = 0; k < 4; ++k) {
-        const std::int32_t n = cells_.neighbors[at(c)][k];
+        const std::int32_t n = diagram_.neighbors[at(c)][k];
         if (before[at(n)] >= 0 || label_[at(n)] < 0 || !open(at(c), k)) continue;
         before[at(n)] = c;
         next.push_back(n);
@@ -152,13 +116,13 @@ std::vector<Voids::Cell> Voids::between(const Place& a, const Place& b) const {
 /// `other` lies in the union `other`.
 Voids::Place Voids::located(const Cell& orthogonal_to, const Voids& other) const {
   if (other.label_.empty()) return {};
-  const Point point = equal_power(complex_, orthogonal_to);
-  const auto corner = [&](std::int32_t v) { return exact(other.complex_.centers[at(v)]); };
+  const Point point = equal_power(diagram_, orthogonal_to);
+  const auto corner = [&](std::int32_t v) { return exact(other.diagram_.centers[at(v)]); };
   // Walk through facets that separate the cell from the point; regular triangulations have no circles.
   std::size_t c = 0;
-  while (!finite(other.cells_.cells[c])) ++c;
+  while (!finite(other.diagram_.cells[c])) ++c;
   for (;;) {
-    const Cell& cell = other.cells_.cells[c];
+    const Cell& cell = other.diagram_.cells[c];
     if (!finite(cell)) return {};
     const Point p[4] = {corner(cell[0]), corner(cell[1]), corner(cell[2]), corner(cell[3])};
     std::size_t k = 0;
@@ -168,7 +132,7 @@ Voids::Place Voids::located(const Cell& orthogonal_to, const Voids& other) const
       if (CGAL::orientation(q[0], q[1], q[2], q[3]) == CGAL::NEGATIVE) break;
     }
     if (k == 4) break;
-    c = at(other.cells_.neighbors[c][k]);
+    c = at(other.diagram_.neighbors[c][k]);
   }
   if (other.label_[c] < 0)
     throw std::logic_error("a point outside of a union of balls lies in its dual complex");

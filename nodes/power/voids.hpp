@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "base/monitor.hpp"
-#include "power/regular_cells.hpp"
+#include "types/power_diagram.hpp"
 #include "types/simplicial_complex.hpp"
 
 namespace ballflow::geometry {
 
-/// Components of the complement of the union of balls whose dual complex K is given, by Alexander duality the
+/// Components of the complement of a union of balls with dual complex K, by Alexander duality the
 /// components of the cells of the regular triangulation that are not in K, joined through triangles not in K.
 /// K lies in the union, so the union is left by nothing that leaves K.
 class Voids {
@@ -19,8 +19,8 @@ class Voids {
   static constexpr std::int32_t outer = 0;
   using Cell = std::array<std::int32_t, 4>;
 
-  /// Keeps references. `cells` is the regular triangulation of the centers and weights of `complex`.
-  Voids(const SimplicialComplex& complex, const RegularCells& cells, Monitor& monitor);
+  /// Keeps a reference.
+  Voids(const PowerDiagram& diagram, Monitor& monitor);
 
   /// The outer one included, which has number 0; the others follow by their smallest cells.
   std::int32_t count() const { return static_cast<std::int32_t>(cells_of_.size()); }
@@ -41,10 +41,11 @@ class Voids {
 
  private:
   Place located(const Cell& orthogonal_to, const Voids& other) const;
-  bool open(std::size_t cell, std::size_t k) const;  // the facet opposite corner k is not in K
+  bool open(std::size_t cell, std::size_t k) const {  // the facet opposite corner k is not in K
+    return (diagram_.in_complex[cell] >> k & 1) == 0;
+  }
 
-  const SimplicialComplex& complex_;
-  const RegularCells& cells_;
+  const PowerDiagram& diagram_;
   std::vector<std::int32_t> label_;  // per cell, -1 for cells in K
   std::vector<std::vector<Cell>> cells_of_;
 };

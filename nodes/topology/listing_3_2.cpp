@@ -15,7 +15,9 @@ std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 /// B_T and what the boundary of its union looks like. The ball that was inserted last is the last one.
 struct Boundary {
   Boundary(const Balls& all, std::span<const std::int32_t> ids, Monitor& monitor)
-      : complex(alpha_shape(select(all, ids), {}, monitor)), corners(exposed_sides(complex, monitor)) {}
+      : Boundary(power_diagram(select(all, ids), {}, monitor), monitor) {}
+  Boundary(const PowerDiagram& diagram, Monitor& monitor)
+      : complex(alpha_shape(diagram, monitor)), corners(exposed_sides(complex, diagram, monitor)) {}
 
   bool contains(std::int32_t ball, Vec3 x) const {
     const Vec3 d = x - complex.centers[at(ball)];

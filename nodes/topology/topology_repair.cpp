@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "homology/inclusion_homology.hpp"
+#include "power/power_diagram.hpp"
 #include "topology/diagnosis.hpp"
 #include "topology/listing_3_2.hpp"
 
@@ -129,7 +130,8 @@ class Repair {
 }  // namespace
 
 TopologyRepair repair_topology(const Balls& balls, std::span<const std::int32_t> kept,
-                               const TopologyRepairOptions& options, Monitor& monitor) {
+                               const TopologyRepairOptions& options, Monitor& monitor,
+                               const PowerDiagram* diagram) {
   for (std::size_t i = 0; i < kept.size(); ++i) {
     if (kept[i] < 0 || at(kept[i]) >= balls.size() || (i > 0 && kept[i] <= kept[i - 1])) {
       throw InputError("the kept ball " + std::to_string(kept[i]) + " at place " + std::to_string(i) +
@@ -145,14 +147,17 @@ TopologyRepair repair_topology(const Balls& balls, std::span<const std::int32_t>
                      "use method localised");
   }
   PartMonitor still(monitor, 0, 0);  // how many comparisons it takes is not known
-  const UnionOfBalls whole(balls, still);
+  if (diagram != nullptr) check_diagram_of(*diagram, balls);
+  const UnionOfBalls whole =
+      diagram != nullptr ? UnionOfBalls(balls, *diagram, still) : UnionOfBalls(balls, still);
   const TopologyRepair repair = Repair(whole, Ids(kept.begin(), kept.end()), options, still).run();
   monitor.step(1);
   return repair;
 }
 
 TopologyRepair repair_topology(const Balls& balls, const CoverState& cover,
-                               const TopologyRepairOptions& options, Monitor& monitor) {
+                               const TopologyRepairOptions& options, Monitor& monitor,
+                               const PowerDiagram* diagram) {
   if (cover.balls != static_cast<std::int64_t>(balls.size())) {
     throw InputError("the cover is about " + std::to_string(cover.balls) + " balls, but there are " +
                          std::to_string(balls.size()),
@@ -164,7 +169,7 @@ TopologyRepair repair_topology(const Balls& balls, const CoverState& cover,
   }
   Ids kept(cover.chosen.begin(), cover.chosen.end());
   std::sort(kept.begin(), kept.end());
-  TopologyRepair repair = repair_topology(balls, kept, options, monitor);
+  TopologyRepair repair = repair_topology(balls, kept, options, monitor, diagram);
   if (!repair.check.inclusion_before().isomorphism()) monitor.warn(describe(repair.check));
   return repair;
 }

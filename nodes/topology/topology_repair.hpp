@@ -8,6 +8,7 @@
 #include "base/monitor.hpp"
 #include "types/balls.hpp"
 #include "types/cover_state.hpp"
+#include "types/power_diagram.hpp"
 #include "types/topology_check.hpp"
 
 namespace ballflow::geometry {
@@ -43,13 +44,17 @@ CoverState with_returned(const CoverState& cover, std::span<const std::int32_t> 
 /// - Radii are taken as they are: use enlarged balls.
 /// - `kept` ascends. Throws InputError for ids out of order or out of range, for balls that break their
 ///   invariants, and for more than 2000 balls with method literal.
+/// - Where `diagram` is given it is the power diagram of `balls`, with tolerance none; InputError when it is
+/// not.
 /// - The same for any number of threads.
 TopologyRepair repair_topology(const Balls& balls, std::span<const std::int32_t> kept,
-                               const TopologyRepairOptions& options, Monitor& monitor);
+                               const TopologyRepairOptions& options, Monitor& monitor,
+                               const PowerDiagram* diagram = nullptr);
 
 /// The same for the balls that a cover chose. What was wrong is a warning in words. Throws InputError for a
 /// cover about another number of balls.
 TopologyRepair repair_topology(const Balls& balls, const CoverState& cover,
-                               const TopologyRepairOptions& options, Monitor& monitor);
+                               const TopologyRepairOptions& options, Monitor& monitor,
+                               const PowerDiagram* diagram = nullptr);
 
 }  // namespace ballflow::geometry

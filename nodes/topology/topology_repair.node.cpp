@@ -3,7 +3,7 @@
 #include <ballflow/sdk.hpp>
 
 #include "exact/cgal_version.hpp"
-#include "types/artifact_types.hpp"
+#include "types/power_diagram_type.hpp"
 
 namespace ballflow::nodes {
 namespace {
@@ -14,6 +14,7 @@ using geometry::TopologyRepairOptions;
 struct TopologyRepair {
   In<geometry::CoverState> cover;
   In<geometry::Balls> balls;
+  In<geometry::PowerDiagram> diagram;
   Out<geometry::CoverState> repaired;
   Out<geometry::TopologyCheck> check;
   TopologyRepairOptions options;
@@ -38,6 +39,9 @@ struct TopologyRepair {
     d.input("cover", &TopologyRepair::cover).doc("a finished cover");
     d.input("balls", &TopologyRepair::balls)
         .doc("the balls the covering matrix was made of, row i is ball i");
+    d.input("diagram", &TopologyRepair::diagram)
+        .optional()
+        .doc("their power diagram, with tolerance none: they are not triangulated again");
     d.output("cover", &TopologyRepair::repaired).doc("the cover, and the balls that were returned");
     d.output("check", &TopologyRepair::check)
         .doc("what the inclusion does to homology before and after, and what the repair cost");
@@ -57,7 +61,8 @@ struct TopologyRepair {
   }
   void run(RunContext& context) {
     ContextMonitor monitor(context);
-    const geometry::TopologyRepair repair = geometry::repair_topology(*balls, *cover, options, monitor);
+    const geometry::TopologyRepair repair =
+        geometry::repair_topology(*balls, *cover, options, monitor, diagram ? &*diagram : nullptr);
     repaired = geometry::with_returned(*cover, repair.returned);
     repaired.summary("returned", repair.check.returned);
     check = repair.check;

@@ -41,6 +41,12 @@ std::optional<std::size_t> TopologyTable::row(TopologyStage stage) const {
   return static_cast<std::size_t>(at - stages.begin());
 }
 
+TopologyTable one_row(TopologyStage stage, const std::optional<Betti>& betti) {
+  constexpr std::int64_t unknown = TopologyTable::unknown;
+  const Betti b = betti.value_or(Betti{unknown, unknown, unknown});
+  return {{static_cast<std::uint8_t>(stage)}, {b}, {betti ? b[0] - b[1] + b[2] : 0}};
+}
+
 std::vector<std::string> topology_changes(const TopologyTable& table) {
   std::vector<std::string> changes;
   std::optional<std::size_t> before;

@@ -41,6 +41,9 @@ struct TopologyTable {
   std::optional<std::size_t> row(TopologyStage stage) const;
 };
 
+/// A table of one row; without Betti numbers they are unknown.
+TopologyTable one_row(TopologyStage stage, const std::optional<Betti>& betti);
+
 /// What differs between one known row and the next, in words: "pruning closed 2 tunnels". Empty when all
 /// rows agree. A difference of Betti numbers is a difference of topology; equal ones do not prove that there
 /// is none.

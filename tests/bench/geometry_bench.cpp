@@ -146,18 +146,14 @@ void poles(benchmark::State& state, const std::string& file) {
 void alpha(benchmark::State& state, const std::string& file, double epsilon) {
   const Balls balls = model(file).enlarged(epsilon);
   Cost whole, classes, triangulation, fixed;
-  std::vector<double> weights;
-  for (const double r : balls.radii) weights.push_back(r * r);
-  const Array<double> squared(weights);
   for (auto _ : state) {
     for (int turn = 0; turn < turns(balls.size()); ++turn) {
       std::unique_ptr<RegularTriangulation> regular;
       triangulation.take([&] { regular = std::make_unique<RegularTriangulation>(balls); });
       fixed.take([&] { benchmark::DoNotOptimize(regular->fixed_alpha_shape()); });
       regular.reset();
-      const RegularCells cells = regular_cells(balls.centers, squared, no_monitor());
-      classes.take(
-          [&] { benchmark::DoNotOptimize(alpha_classes(cells, balls.centers, squared, no_monitor())); });
+      const PowerDiagram diagram = power_diagram(balls, {}, no_monitor());
+      classes.take([&] { benchmark::DoNotOptimize(alpha_classes(diagram, no_monitor())); });
       whole.take([&] { benchmark::DoNotOptimize(alpha_shape(balls, {}, no_monitor())); });
     }
   }

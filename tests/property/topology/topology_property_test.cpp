@@ -20,8 +20,10 @@
 #include "power/alpha_shape.hpp"
 #include "sample/sample.hpp"
 #include "test_data.hpp"
+#include "topology/solid_topology.hpp"
 #include "topology/topology.hpp"
 #include "topology/topology_repair.hpp"
+#include "topology/union_topology.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -88,8 +90,13 @@ TEST_P(EveryModel, keeps_its_topology_from_the_surface_to_the_medial_axis) {
   const Balls kept = select(p.all, ids);
   const SimplicialComplex complex = alpha_shape(kept, {}, no_monitor());
   const MedialAxis axis = medial_axis(complex, {}, no_monitor());
-  const TopologyTable table =
-      topology({&p.mesh, &p.inner, &p.enlarged, &kept, &complex, &axis}, no_monitor());
+  const auto row = [](const Balls& balls, TopologyStage stage) {
+    return union_row(balls, {stage}, no_monitor());
+  };
+  const TopologyTable surface = solid_row(p.mesh, no_monitor()), inner = row(p.inner, TopologyStage::inner),
+                      enlarged = row(p.enlarged, TopologyStage::enlarged),
+                      chosen = row(kept, TopologyStage::kept);
+  const TopologyTable table = topology({&surface, &inner, &enlarged, &chosen, &complex, &axis}, no_monitor());
   const Betti after = table.betti[*table.row(TopologyStage::kept)];
   if (GetParam().well_sampled) {
     for (const Betti& row : table.betti) EXPECT_EQ(row, solid);

@@ -10,7 +10,7 @@
 #include "poles/label_poles.hpp"
 #include "poles/voronoi_poles.hpp"
 #include "power/gabriel_points.hpp"
-#include "power/regular_cells.hpp"
+#include "power/power_diagram.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -191,8 +191,7 @@ TEST(power_growth, finds_the_critical_points_that_the_definition_has) {
   std::size_t found = 0;
   for (unsigned seed = 1; seed <= 40; ++seed) {
     const Balls balls = random_balls(4 + static_cast<int>(seed) % 10, 0.3, seed);
-    const auto cells = regular_cells(balls.centers, squared_radii(balls), no_monitor());
-    const auto points = critical_gabriel_points(balls.centers, squared_radii(balls), cells, no_monitor());
+    const auto points = critical_gabriel_points(power_diagram(balls, {}, no_monitor()), no_monitor());
     const auto expected = all_critical_points(balls);
     ASSERT_EQ(points.size(), expected.size()) << seed;
     for (std::size_t i = 0; i < points.size(); ++i)
@@ -209,9 +208,9 @@ TEST(power_growth, finds_critical_points_of_centers_in_a_plane_and_on_a_line) {
       std::vector<Vec3> centers;
       for (const Vec3& c : space.centers) centers.push_back({c.x, line ? 0 : c.y, 0});
       const Balls balls{centers, space.radii, {}, {}};
-      const auto cells = regular_cells(balls.centers, squared_radii(balls), no_monitor());
-      ASSERT_EQ(cells.dimension, line ? 1 : 2);
-      const auto points = critical_gabriel_points(balls.centers, squared_radii(balls), cells, no_monitor());
+      const PowerDiagram diagram = power_diagram(balls, {}, no_monitor());
+      ASSERT_EQ(diagram.dimension, line ? 1 : 2);
+      const auto points = critical_gabriel_points(diagram, no_monitor());
       const auto expected = all_critical_points(balls);
       ASSERT_EQ(points.size(), expected.size()) << seed << line;
       for (std::size_t i = 0; i < points.size(); ++i) EXPECT_LT(distance(points[i], expected[i]), 1e-10);

@@ -62,6 +62,19 @@ class Oracle {
     for (std::size_t d = 0; d < 3; ++d) power += (s.center[d] - q[d]) * (s.center[d] - q[d]);
     return power < s.squared_radius;
   }
+  /// The sign of the power of a ball to the orthogonal sphere of four, negated for negatively oriented
+  /// centres.
+  int side(const std::array<std::int32_t, 4>& b, std::int32_t other) const {
+    const Sphere s = sphere({b[0], b[1], b[2], b[3]});
+    const auto q = relative(b[0], other), x = relative(b[0], b[1]), y = relative(b[0], b[2]),
+               z = relative(b[0], b[3]);
+    Number power = -weight(other) - s.squared_radius;
+    for (std::size_t d = 0; d < 3; ++d) power += (s.center[d] - q[d]) * (s.center[d] - q[d]);
+    const std::array<Number, 3> n{x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2],
+                                  x[0] * y[1] - x[1] * y[0]};
+    const int sign = power > 0 ? 1 : power < 0 ? -1 : 0;
+    return dot(n, z) > 0 ? sign : -sign;
+  }
   bool independent(const std::vector<std::int32_t>& balls) const {
     std::vector<std::array<Number, 3>> a;
     for (std::size_t k = 1; k < balls.size(); ++k) a.push_back(relative(balls[0], balls[k]));
@@ -92,6 +105,7 @@ class Oracle {
 
 struct Answers {
   int asked = 0, yes = 0;
+  int sides = 0, quick = 0;  // power sides that are not 0, and those that were found without rational numbers
   void count(bool answer) {
     ++asked;
     yes += answer ? 1 : 0;
@@ -125,6 +139,17 @@ Answers compare(const std::vector<Vec3>& centers, const std::vector<double>& wei
     check(predicates.attaches(triangle, other), oracle.attaches({b[0], b[1], b[2]}, other), "a triangle");
     if (!oracle.independent({b[0], b[1], b[2], b[3]})) continue;
     check(predicates.meets(tetrahedron), oracle.meets({b[0], b[1], b[2], b[3]}), "a tetrahedron");
+    const auto ball = [&](std::int32_t i) {
+      return WeightedPoint{centers[static_cast<std::size_t>(i)], weights[static_cast<std::size_t>(i)]};
+    };
+    if (std::abs(ball(other).center.x) > 1e20) continue;  // beyond what the quick test takes
+    const int expected = -oracle.side(tetrahedron, other);
+    const int side = quick_power_side(ball(b[0]), ball(b[1]), ball(b[2]), ball(b[3]), ball(other));
+    if (side != 0) {
+      EXPECT_EQ(side, expected);
+    }
+    answers.sides += expected != 0 ? 1 : 0;
+    answers.quick += side != 0 ? 1 : 0;
   }
   return answers;
 }
@@ -144,7 +169,10 @@ TEST(ball_predicates, agree_with_rational_arithmetic_on_random_balls) {
     centers.push_back({uniform(), uniform(), uniform()});
     weights.push_back(0.6 * uniform());
   }
-  expect_both(compare(centers, weights, 1500, random));
+  const Answers answers = compare(centers, weights, 1500, random);
+  expect_both(answers);
+  EXPECT_GT(answers.sides, 800);
+  EXPECT_EQ(answers.quick, answers.sides);
 }
 
 TEST(ball_predicates, agree_with_rational_arithmetic_where_most_signs_are_zero) {
@@ -170,7 +198,9 @@ TEST(ball_predicates, agree_with_rational_arithmetic_one_rounding_off_a_grid_and
     centers.push_back({1000 + moved(i % 3), 1000 + moved(i / 3 % 3), moved(i / 9)});
     weights.push_back(moved(0.25 * (1 + i % 3)));
   }
-  expect_both(compare(centers, weights, 1500, random));
+  const Answers answers = compare(centers, weights, 1500, random);
+  expect_both(answers);
+  EXPECT_GT(answers.quick, 300);  // one rounding apart: pairs of doubles tell
 }
 
 TEST(ball_predicates, agree_with_rational_arithmetic_from_tiny_to_huge_balls) {

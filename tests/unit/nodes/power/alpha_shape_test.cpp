@@ -12,7 +12,10 @@
 #include <set>
 
 #include "gudhi_oracle.hpp"
+#include "power/power_diagram.hpp"
 #include "power/regular_cells.hpp"
+#include "power/union_betti.hpp"
+#include "power/union_vertices.hpp"
 #include "test_data.hpp"
 #include "types/topology_table.hpp"
 
@@ -30,10 +33,23 @@ Balls make_balls(std::vector<Vec3> centers, double radius) {
   return make_balls(std::move(centers), std::move(radii));
 }
 
-/// The complex, which keeps its own invariants.
+bool same(const std::vector<ExposedSide>& a, const std::vector<ExposedSide>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const ExposedSide& x, const ExposedSide& y) {
+    return x.triangle == y.triangle && x.side == y.side && x.regular == y.regular;
+  });
+}
+
+/// The complex, which keeps its own invariants, is that of the power diagram, and has the Betti numbers that
+/// are counted without it.
 SimplicialComplex shape_of(const Balls& balls, const AlphaShapeOptions& options = {}) {
   SimplicialComplex complex = alpha_shape(balls, options, no_monitor());
   EXPECT_EQ(broken_invariant(complex), "");
+  const PowerDiagram diagram = power_diagram(balls, options, no_monitor());
+  EXPECT_EQ(broken_invariant(diagram), "");
+  EXPECT_EQ(union_betti(diagram, no_monitor()), complex.betti);
+  EXPECT_EQ(union_betti(balls, options.tolerance, no_monitor()), complex.betti);
+  EXPECT_TRUE(same(exposed_sides(complex, diagram), exposed_sides(complex)));
+  EXPECT_NO_THROW(check_diagram_of(diagram, complex));
   EXPECT_EQ(complex.centers, balls.centers);
   return complex;
 }

@@ -12,7 +12,10 @@
 #include "homology/axis_betti.hpp"
 #include "homology/binary_system.hpp"
 #include "power/alpha_shape.hpp"
+#include "power/power_diagram.hpp"
 #include "search/self_intersection.hpp"
+#include "topology/solid_topology.hpp"
+#include "topology/union_topology.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -217,8 +220,14 @@ Balls ring(int n, double radius) {
   return {centers, std::vector<double>(static_cast<std::size_t>(n), radius), {}, {}};
 }
 
+TopologyTable row_of(const Balls& balls, TopologyStage stage) {
+  return union_row(balls, {stage}, no_monitor());
+}
+
 TEST(topology, says_in_words_what_growing_and_pruning_changed) {
-  const Balls inner = ring(24, 0.2), enlarged = ring(24, 1.01), apart = ring(24, 0.01);
+  const TopologyTable inner = row_of(ring(24, 0.2), TopologyStage::inner),
+                      enlarged = row_of(ring(24, 1.01), TopologyStage::enlarged),
+                      apart = row_of(ring(24, 0.01), TopologyStage::kept);
   Listener listener;
   const TopologyTable table = topology({.inner = &inner, .enlarged = &enlarged, .kept = &apart}, listener);
   EXPECT_EQ(broken_invariant(table), "");
@@ -234,7 +243,10 @@ TEST(topology, is_silent_where_every_stage_agrees) {
   const SimplicialComplex complex = alpha_shape(balls, {}, no_monitor());
   const MedialAxis axis = medial_axis(complex, {}, no_monitor());
   Listener listener;
-  const TopologyTable table = topology({&surface, &balls, &balls, &balls, &complex, &axis}, listener);
+  const TopologyTable solid = solid_row(surface, listener), inner = row_of(balls, TopologyStage::inner),
+                      enlarged = row_of(balls, TopologyStage::enlarged),
+                      kept = row_of(balls, TopologyStage::kept);
+  const TopologyTable table = topology({&solid, &inner, &enlarged, &kept, &complex, &axis}, listener);
   ASSERT_EQ(table.size(), 6u);
   for (const Betti& row : table.betti) EXPECT_EQ(row, (Betti{1, 1, 0}));
   EXPECT_TRUE(listener.warnings.empty());
@@ -247,7 +259,8 @@ TEST(topology, compares_across_an_unknown_surface_and_says_why_it_is_unknown) {
   const TriangleMesh surface = open.mesh();
   const Balls balls = ring(24, 0.25);
   Listener listener;
-  const TopologyTable table = topology({.surface = &surface, .enlarged = &balls}, listener);
+  const TopologyTable solid = solid_row(surface, listener), enlarged = row_of(balls, TopologyStage::enlarged);
+  const TopologyTable table = topology({.surface = &solid, .enlarged = &enlarged}, listener);
   EXPECT_FALSE(table.known(0));
   EXPECT_TRUE(topology_changes(table).empty());
   ASSERT_EQ(listener.warnings.size(), 1u);
@@ -255,11 +268,27 @@ TEST(topology, compares_across_an_unknown_surface_and_says_why_it_is_unknown) {
 }
 
 TEST(topology, has_no_row_for_a_cloud_of_points_and_refuses_nothing_at_all) {
-  const TriangleMesh cloud;
-  const Balls none;
+  const TopologyTable cloud = solid_row(TriangleMesh{}, no_monitor());
+  const TopologyTable none = row_of(Balls{}, TopologyStage::kept);
   EXPECT_EQ(topology({.surface = &cloud, .kept = &none}, no_monitor()).betti, (Array<Betti>{{0, 0, 0}}));
   EXPECT_THROW(topology({.surface = &cloud}, no_monitor()), InputError);
   EXPECT_THROW(topology({}, no_monitor()), InputError);
+}
+
+TEST(topology, refuses_a_row_of_another_stage) {
+  const TopologyTable inner = row_of(ring(24, 0.2), TopologyStage::inner);
+  EXPECT_THROW(topology({.kept = &inner}, no_monitor()), InputError);
+  EXPECT_THROW(row_of(ring(24, 0.2), TopologyStage::axis), InputError);
+}
+
+TEST(union_row, is_the_same_from_balls_and_from_their_power_diagram) {
+  for (const double radius : {0.01, 0.2, 1.01}) {
+    const Balls balls = ring(24, radius);
+    const TopologyTable polar = union_row(power_diagram(balls, {AlphaTolerance::polar}, no_monitor()),
+                                          {TopologyStage::inner}, no_monitor());
+    EXPECT_EQ(row_of(balls, TopologyStage::inner).betti, polar.betti);
+    EXPECT_EQ(row_of(balls, TopologyStage::kept).betti[0], alpha_shape(balls, {}, no_monitor()).betti);
+  }
 }
 
 TEST(topology_table, reports_what_does_not_fit) {
