@@ -8,6 +8,7 @@
 #include "balls/enlarge.hpp"
 #include "poles/label_poles.hpp"
 #include "poles/voronoi_poles.hpp"
+#include "power/alpha_shape.hpp"
 #include "sample/sample.hpp"
 #include "test_data.hpp"
 

@@ -90,12 +90,12 @@ TEST_P(EveryModel, keeps_its_topology_from_the_surface_to_the_medial_axis) {
   const Balls kept = select(p.all, ids);
   const SimplicialComplex complex = alpha_shape(kept, {}, no_monitor());
   const MedialAxis axis = medial_axis(complex, {}, no_monitor());
-  const auto row = [](const Balls& balls, TopologyStage stage) {
+  const auto counted = [](const Balls& balls, TopologyStage stage) {
     return union_row(balls, {stage}, no_monitor());
   };
-  const TopologyTable surface = solid_row(p.mesh, no_monitor()), inner = row(p.inner, TopologyStage::inner),
-                      enlarged = row(p.enlarged, TopologyStage::enlarged),
-                      chosen = row(kept, TopologyStage::kept);
+  const TopologyTable surface = solid_row(p.mesh, no_monitor()), inner = counted(p.inner, TopologyStage::inner),
+                      enlarged = counted(p.enlarged, TopologyStage::enlarged),
+                      chosen = counted(kept, TopologyStage::kept);
   const TopologyTable table = topology({&surface, &inner, &enlarged, &chosen, &complex, &axis}, no_monitor());
   const Betti after = table.betti[*table.row(TopologyStage::kept)];
   if (GetParam().well_sampled) {

@@ -9,6 +9,7 @@
 
 #include "poles/label_poles.hpp"
 #include "poles/voronoi_poles.hpp"
+#include "power/alpha_shape.hpp"
 #include "power/gabriel_points.hpp"
 #include "power/power_diagram.hpp"
 
