@@ -39,6 +39,10 @@ void add_polygon(RawModel& model, std::span<const std::int32_t> corners) {
     throw InputError("the file has more than " + std::to_string(max_triangles) + " triangles",
                      "thin it out first");
   }
+  if (corners.size() > 3) {
+    model.polygons.push_back(
+        {static_cast<std::int32_t>(model.triangles.size()), static_cast<std::int32_t>(corners.size())});
+  }
   for (std::size_t i = 2; i < corners.size(); ++i)
     model.triangles.push_back({corners[0], corners[i - 1], corners[i]});
 }

@@ -13,13 +13,20 @@
 
 namespace ballflow::geometry {
 
+/// A face of more than three corners: a fan of corners - 2 triangles around its first corner.
+struct RawPolygon {
+  std::int32_t first_triangle = 0;
+  std::int32_t corners = 0;
+};
+
 struct RawModel {
-  std::vector<Vec3> vertices;       // finite
-  std::vector<Vec3> normals;        // one per vertex, of any length and not checked, or none
-  std::vector<double> radii;        // of PLY: one per vertex, not checked, or none
-  std::vector<Triangle> triangles;  // polygons as fans; indices in range, repeated ones allowed
-  std::int64_t faces = 0;           // polygons the file lists
-  std::int64_t small_faces = 0;     // polygons of fewer than three corners, dropped
+  std::vector<Vec3> vertices;        // finite
+  std::vector<Vec3> normals;         // one per vertex, of any length and not checked, or none
+  std::vector<double> radii;         // of PLY: one per vertex, not checked, or none
+  std::vector<Triangle> triangles;   // polygons as fans; indices in range, repeated ones allowed
+  std::vector<RawPolygon> polygons;  // which of them are fans, ascending
+  std::int64_t faces = 0;            // polygons the file lists
+  std::int64_t small_faces = 0;      // polygons of fewer than three corners, dropped
   std::vector<std::string> warnings;
 };
 
@@ -29,7 +36,8 @@ void require_room(std::int64_t count, std::size_t bytes_each, std::size_t bytes_
 
 /// Throws InputError when the model grows beyond 32-bit indices.
 void add_vertex(RawModel& model, const Vec3& p);
-/// Adds a polygon as a fan of triangles around its first corner.
+/// Adds a polygon as a fan of triangles around its first corner; triangles_of makes better ones of it when
+/// all vertices are known.
 void add_polygon(RawModel& model, std::span<const std::int32_t> corners);
 
 /// Throws "face 5: vertex index 99 is out of range (8 vertices)". `kind` is "vertex" or "normal".

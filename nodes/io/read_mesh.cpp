@@ -12,6 +12,7 @@
 #include "base/first_equal.hpp"
 #include "exact/affine_span.hpp"
 #include "io/file_content.hpp"
+#include "io/model_faces.hpp"
 #include "io/raw_model.hpp"
 #include "io/text_cursor.hpp"
 
@@ -69,25 +70,6 @@ MeshFormat format_of(const std::string& path, std::string_view content) {
                    "readable are .off .obj .ply .stl .xyz .pts .pwn, each also with .gz");
 }
 
-std::vector<Index> first_equal_triangle(const std::vector<Triangle>& triangles) {
-  const auto sorted = [&](std::size_t i) {
-    Triangle t = triangles[i];
-    if (t[0] > t[1]) std::swap(t[0], t[1]);
-    if (t[1] > t[2]) std::swap(t[1], t[2]);
-    if (t[0] > t[1]) std::swap(t[0], t[1]);
-    return t;
-  };
-  return first_equal(
-      triangles.size(),
-      [&](std::size_t i) {
-        const Triangle t = sorted(i);
-        return mix_hash(
-            mix_hash(mix_hash(0, static_cast<std::uint64_t>(t[0])), static_cast<std::uint64_t>(t[1])),
-            static_cast<std::uint64_t>(t[2]));
-      },
-      [&](std::size_t a, std::size_t b) { return sorted(a) == sorted(b); });
-}
-
 std::string counted(std::int64_t n, const char* one, const char* many) {
   return std::to_string(n) + " " + (n == 1 ? one : many);
 }
@@ -121,20 +103,14 @@ MeshFile clean(RawModel model, Monitor& monitor) {
   for (std::size_t v = 0; v < first.size(); ++v) result.welded_vertices += first[v] != static_cast<Index>(v);
   monitor.step(0.9);
 
-  result.degenerate_faces = model.small_faces;
-  std::erase_if(model.triangles, [&](Triangle& t) {
-    for (Index& v : t) v = first[static_cast<std::size_t>(v)];
-    const bool degenerate = t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-    result.degenerate_faces += degenerate;
-    return degenerate;
-  });
-  const std::vector<Index> first_triangle = first_equal_triangle(model.triangles);
-  std::vector<Triangle> triangles;
-  triangles.reserve(model.triangles.size());
-  for (std::size_t t = 0; t < model.triangles.size(); ++t) {
-    if (first_triangle[t] == static_cast<Index>(t)) triangles.push_back(model.triangles[t]);
-  }
-  result.repeated_faces = static_cast<std::int64_t>(model.triangles.size() - triangles.size());
+  FaceCounts faces;
+  std::vector<Triangle> triangles = triangles_of(model, first, faces, monitor);
+  drop_repeated(triangles, model.vertices.size(), faces);
+  result.degenerate_faces = model.small_faces + faces.degenerate;
+  result.repeated_faces = faces.repeated;
+  result.cancelled_faces = faces.cancelled;
+  result.concave_faces = faces.concave;
+  result.crossing_faces = faces.crossing;
   monitor.step(0.95);
 
   std::vector<bool> used(model.vertices.size(), triangles.empty());
@@ -167,6 +143,20 @@ MeshFile clean(RawModel model, Monitor& monitor) {
   }
   if (result.repeated_faces != 0) {
     monitor.warn(counted(result.repeated_faces, "repeated face is", "repeated faces are") + " dropped");
+  }
+  if (result.cancelled_faces != 0) {
+    monitor.warn(std::to_string(result.cancelled_faces) +
+                 " faces coincide with others and close nothing: such walls and flaps are left out");
+  }
+  if (result.concave_faces != 0) {
+    monitor.warn(counted(result.concave_faces, "concave polygon is triangulated inside itself",
+                         "concave polygons are triangulated inside themselves") +
+                 (faces.bent != 0 ? "; " + counted(faces.bent, "is", "are") + " not flat" : ""));
+  }
+  if (result.crossing_faces != 0) {
+    monitor.warn(
+        counted(result.crossing_faces, "polygon crosses itself or has", "polygons cross themselves or have") +
+        " no area: its surface is a fan of triangles around its first corner");
   }
   if (result.unused_vertices != 0) {
     monitor.warn(counted(result.unused_vertices, "vertex belongs to no face and is no sample",

@@ -24,9 +24,13 @@ struct MeshFile {
   // What the file had and this model has not.
   std::int64_t welded_vertices = 0;  // equal to an earlier vertex
   std::int64_t unused_vertices = 0;  // in no face of a file that has faces
-  std::int64_t degenerate_faces =
-      0;                            // triangles with a repeated vertex, polygons of fewer than three corners
-  std::int64_t repeated_faces = 0;  // triangles with the vertices of an earlier one, in any order
+  // Triangles with a repeated vertex, polygons of fewer than three corners.
+  std::int64_t degenerate_faces = 0;
+  std::int64_t repeated_faces = 0;   // triangles with the vertices of one that stays, in any order
+  std::int64_t cancelled_faces = 0;  // triangles that coincide with others and close nothing; none stays
+  // Polygons that are triangulated inside themselves, because no fan fills them, and polygons that cross
+  // themselves or have no area, which are fans all the same.
+  std::int64_t concave_faces = 0, crossing_faces = 0;
 };
 
 enum class MeshFormat { off, obj, ply, stl, xyz };
@@ -36,7 +40,11 @@ enum class MeshFormat { off, obj, ply, stl, xyz };
 ///
 /// - The extension names the format, the content where there is none (or .txt or .dat).
 /// - Numbers are read with the decimal point in every locale and rounded to the nearest double.
-/// - Polygons become fans of triangles around their first corner.
+/// - Polygons become triangles between their corners: a fan around the first one where that fills the
+/// polygon, else the constrained Delaunay triangulation of its inside, seen along an axis. Bent and nested
+/// ones too; only what crosses itself however it is seen is a fan all the same.
+/// - Of faces with the same corners, whichever way round, one stays, or none where they close nothing: a wall
+/// in a solid that is there twice cancels.
 /// - Exactly equal vertices are welded, the first one stays; -0 becomes 0. Degenerate and repeated triangles
 /// and, where
 ///   there are faces, vertices in no face are dropped. All are counted, and reported by monitor.warn.

@@ -17,11 +17,13 @@ struct Sample {
   SampleOptions options;
 
   static void declare(NodeDecl<Sample>& d) {
-    d.id("Sample", 1).summary("Reads a model, or makes one, and samples its surface.");
+    d.id("Sample", 2).summary("Reads a model, or makes one, and samples its surface.");
     d.doc(
         "Reads OFF, OBJ, PLY, STL and points as text (XYZ, PTS, PWN), each also gzipped. Welds equal "
         "vertices, drops "
-        "degenerate and repeated faces and, where there are faces, vertices in none, and says how many. "
+        "degenerate and repeated faces, also walls that are there twice, triangulates polygons inside "
+        "themselves "
+        "and, where there are faces, vertices in none, and says how many. "
         "Refuses files that "
         "are cut off or damaged, coordinates that are not finite, indices out of range, and points in one "
         "plane.");
@@ -60,6 +62,9 @@ struct Sample {
     points.summary("unused", model.unused_vertices);
     mesh.summary("degenerate_faces", model.degenerate_faces);
     mesh.summary("repeated_faces", model.repeated_faces);
+    if (model.cancelled_faces != 0) mesh.summary("cancelled_faces", model.cancelled_faces);
+    if (model.concave_faces != 0) mesh.summary("concave_faces", model.concave_faces);
+    if (model.crossing_faces != 0) mesh.summary("crossing_faces", model.crossing_faces);
   }
 };
 
