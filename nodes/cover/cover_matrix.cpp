@@ -1,8 +1,6 @@
 #include "cover/cover_matrix.hpp"
 
-#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/for_each_block.hpp"
 #include "cover/residual.hpp"
 #include "search/membership.hpp"
 #include "search/sample_tree.hpp"
@@ -24,7 +23,6 @@ namespace {
 
 // Balls handled between two looks at the monitor: some milliseconds of work.
 constexpr std::size_t block = 256;
-std::size_t blocks_of(std::size_t count) { return (count + block - 1) / block; }
 
 // Beyond this a sum of squares may overflow, and "in no ball" and "in every ball" look alike.
 constexpr double coordinate_limit = 1e140;
@@ -69,18 +67,6 @@ class SetSorter {
  private:
   std::vector<std::uint64_t> words_, groups_;
 };
-
-/// Runs body(b) for all blocks b of `count` things in parallel, watching the monitor, whose progress goes
-/// from `begin` to `end`.
-template <class Body>
-void for_each_block(std::size_t count, Monitor& monitor, double begin, double end, Body body) {
-  std::atomic<std::size_t> done{0};
-  const std::size_t blocks = blocks_of(count);
-  tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
-    body(b);
-    monitor.step(begin + (end - begin) * static_cast<double>(++done) / static_cast<double>(blocks));
-  });
-}
 
 /// What the queries of a block of balls found: hits[ends[k - 1] .. ends[k]) for its ball k.
 struct BlockHits {
@@ -199,10 +185,10 @@ CoverMatrix cover_matrix(const Balls& balls, const PointSet& points, const Cover
   };
 
   std::vector<std::int64_t> offsets(m + 1);
-  std::vector<BlockHits> kept(blocks_of(m));
+  std::vector<BlockHits> kept(blocks_of(m, block));
   std::atomic<std::int64_t> room{hits_per_ball * static_cast<std::int64_t>(m)};
   tbb::enumerable_thread_specific<BlockHits> asked;
-  for_each_block(m, monitor, 0.1, 0.4, [&](std::size_t b) {
+  for_each_block(m, block, monitor, 0.1, 0.4, [&](std::size_t b, std::size_t, std::size_t) {
     BlockHits& found = asked.local();
     query(b, found, [&](std::size_t i, std::int64_t count) {
       for_each_missed(i, squared_reach(balls.radii[i]), [&](std::int32_t) { ++count; });
@@ -219,7 +205,7 @@ CoverMatrix cover_matrix(const Balls& balls, const PointSet& points, const Cover
   // Not initialised, and with room for the rows of uncovered samples; untouched pages cost nothing.
   const std::shared_ptr<std::int32_t[]> columns(new std::int32_t[static_cast<std::size_t>(entries) + n]);
   tbb::enumerable_thread_specific<SetSorter> sorters([n] { return SetSorter(n); });
-  for_each_block(m, monitor, 0.4, 0.9, [&](std::size_t b) {
+  for_each_block(m, block, monitor, 0.4, 0.9, [&](std::size_t b, std::size_t, std::size_t) {
     BlockHits found = std::move(kept[b]);
     if (found.ends.empty()) query(b, found, [](std::size_t, std::int64_t) {});
     SetSorter& sorter = sorters.local();

@@ -2,21 +2,28 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/for_each_block.hpp"
 #include "cover/cover_matrix.hpp"
 #include "search/membership.hpp"
 
 namespace ballflow::geometry {
 namespace {
 
-/// Samples sorted into equal cubes; a sample can be taken out.
+/// Samples sorted into equal cubes, row by row of cubes; a sample can be taken out.
 class SampleGrid {
  public:
+  /// The cubes that a ball may reach into, from `low` to `high`.
+  struct Reach {
+    std::array<std::uint16_t, 3> low, high;
+  };
+
   explicit SampleGrid(std::span<const Vec3> samples) : samples_(samples), box_(bounding_box(samples)) {
     // About four samples a cell if they filled the box; on a surface most cells are empty, which costs
     // little.
@@ -34,10 +41,34 @@ class SampleGrid {
       ids_[last_[cell_of(samples[j])]++] = static_cast<std::int32_t>(j);
   }
 
-  /// Takes out the samples that `in_ball` accepts; it accepts none outside the cube of half edge `radius`.
+  Reach reach_of(Vec3 center, double radius) const {
+    const double reach = radius * (1 + 0x1p-20);  // beyond any slack of the predicate
+    const auto low = clamped(center - Vec3{reach, reach, reach}),
+               high = clamped(center + Vec3{reach, reach, reach});
+    Reach cells;
+    for (std::size_t k = 0; k < 3; ++k) {
+      cells.low[k] = static_cast<std::uint16_t>(low[k]);
+      cells.high[k] = static_cast<std::uint16_t>(high[k]);
+    }
+    return cells;
+  }
+
+  /// Rows of cubes [result[k], result[k + 1]) hold about an equal share of the samples.
+  std::vector<std::size_t> equal_parts(std::size_t parts) const {
+    const std::size_t rows = size_[1] * size_[2];
+    std::vector<std::size_t> ends = {0};
+    for (std::size_t row = 0; row < rows; ++row) {
+      const std::size_t before = first_[(row + 1) * size_[0]];
+      if (row + 1 == rows || before * parts >= ends.size() * ids_.size()) ends.push_back(row + 1);
+    }
+    return ends;
+  }
+
+  /// Takes out the samples that `in_ball` accepts, in the rows of cubes [first, last) alone; it accepts none
+  /// outside of `reach`. Calls for different rows may run at once.
   template <class InBall>
-  void take(Vec3 center, double radius, InBall in_ball) {
-    for_cells(center, radius, [&](std::size_t cell) {
+  void take(const Reach& reach, std::size_t first_row, std::size_t last_row, InBall in_ball) {
+    for_cells(reach, first_row, last_row, [&](std::size_t cell) {
       for (std::size_t k = first_[cell]; k < last_[cell];) {
         if (in_ball(samples_[static_cast<std::size_t>(ids_[k])])) {
           std::swap(ids_[k], ids_[--last_[cell]]);
@@ -51,7 +82,7 @@ class SampleGrid {
   /// Calls `visit` with every sample in the cube of half edge `radius`, and some near it.
   template <class Visit>
   void near(Vec3 center, double radius, Visit visit) const {
-    for_cells(center, radius, [&](std::size_t cell) {
+    for_cells(reach_of(center, radius), 0, size_[1] * size_[2], [&](std::size_t cell) {
       for (std::size_t k = first_[cell]; k < last_[cell]; ++k) visit(ids_[k]);
     });
   }
@@ -68,16 +99,15 @@ class SampleGrid {
 
  private:
   template <class OnCell>
-  void for_cells(Vec3 center, double radius, OnCell on_cell) const {
+  void for_cells(const Reach& reach, std::size_t first_row, std::size_t last_row, OnCell on_cell) const {
     if (ids_.empty()) return;
-    const double reach = radius * (1 + 0x1p-20);  // beyond any slack of the predicate
-    const auto low = clamped(center - Vec3{reach, reach, reach}),
-               high = clamped(center + Vec3{reach, reach, reach});
-    for (std::size_t z = low[2]; z <= high[2]; ++z) {
-      for (std::size_t y = low[1]; y <= high[1]; ++y) {
-        for (std::size_t x = low[0]; x <= high[0]; ++x) {
-          on_cell((z * size_[1] + y) * size_[0] + x);
-        }
+    const std::size_t first_layer = std::max<std::size_t>(reach.low[2], first_row / size_[1]);
+    const std::size_t last_layer = std::min<std::size_t>(reach.high[2], (last_row - 1) / size_[1]);
+    for (std::size_t z = first_layer; z <= last_layer; ++z) {
+      const std::size_t first = std::max(z * size_[1] + reach.low[1], first_row),
+                        last = std::min(z * size_[1] + reach.high[1] + 1, last_row);
+      for (std::size_t row = first; row < last; ++row) {
+        for (std::size_t x = reach.low[0]; x <= reach.high[0]; ++x) on_cell(row * size_[0] + x);
       }
     }
   }
@@ -104,6 +134,32 @@ class SampleGrid {
   std::vector<std::int32_t> ids_;
 };
 
+// Balls between two looks at the monitor.
+constexpr std::size_t block = 256;
+
+std::string in_words(Vec3 p) {
+  char place[96];
+  std::snprintf(place, sizeof place, "(%.9g, %.9g, %.9g)", p.x, p.y, p.z);
+  return place;
+}
+
+/// What is wrong with ball i, which has `inside` of the entries of the certificate, ascending, in it.
+std::string broken_condition(const CoverState& cover, std::size_t i, std::span<const std::int32_t> inside) {
+  std::int64_t cost = 0;
+  for (const std::int32_t k : inside) {
+    cost += cover.certificate_prices[static_cast<std::size_t>(k)];
+    const std::int32_t one = cover.certificate_groups[static_cast<std::size_t>(inside.front())],
+                       other = cover.certificate_groups[static_cast<std::size_t>(k)];
+    if (other != one) {
+      return "ball " + std::to_string(i) + " contains samples of the groups " + std::to_string(one) +
+             " and " + std::to_string(other);
+    }
+  }
+  if (cost <= price_unit) return {};
+  return "ball " + std::to_string(i) + " contains samples whose prices sum to " + std::to_string(cost) +
+         " / " + std::to_string(price_unit) + ", more than 1";
+}
+
 }  // namespace
 
 CoverCheck verify_cover(const Balls& balls, const PointSet& points, const VerifyCoverOptions& options,
@@ -112,25 +168,31 @@ CoverCheck verify_cover(const Balls& balls, const PointSet& points, const Verify
   monitor.step(0);
   const std::size_t n = points.points.size();
   SampleGrid grid(points.points);
+  std::vector<SampleGrid::Reach> reach(balls.size());
+  for_each_block(balls.size(), block, monitor, 0, 0.2, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) reach[i] = grid.reach_of(balls.centers[i], balls.radii[i]);
+  });
+  // Every part of the grid goes through all balls; a sample that is taken out is not looked at again.
+  const std::vector<std::size_t> parts = grid.equal_parts(64);
+  for_each_block(parts.size() - 1, 1, monitor, 0.2, 0.9, [&](std::size_t part, std::size_t, std::size_t) {
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+      if (i % 4096 == 0 && monitor.cancelled()) throw Cancelled();
+      const double squared = squared_reach(balls.radii[i]);
+      grid.take(reach[i], parts[part], parts[part + 1],
+                [&](Vec3 s) { return in_reach(balls.centers[i], squared, s); });
+    }
+  });
   std::vector<std::uint8_t> defines(n);
-  for (std::size_t i = 0; i < balls.size(); ++i) {
-    if (i % 256 == 0) monitor.step(static_cast<double>(i) / static_cast<double>(balls.size()));
-    const double reach = squared_reach(balls.radii[i]);
-    grid.take(balls.centers[i], balls.radii[i], [&](Vec3 s) { return in_reach(balls.centers[i], reach, s); });
-    for (const std::int32_t s : balls.samples_of(i)) defines[static_cast<std::size_t>(s)] = 1;
-  }
+  for (const std::int32_t s : balls.defining_samples) defines[static_cast<std::size_t>(s)] = 1;
   std::vector<std::int32_t> uncovered = grid.rest();
   std::erase_if(uncovered, [&](std::int32_t s) { return defines[static_cast<std::size_t>(s)] != 0; });
   monitor.step(1);
 
   if (!uncovered.empty()) {
-    const Vec3 p = points.points[static_cast<std::size_t>(uncovered.front())];
-    char place[96];
-    std::snprintf(place, sizeof place, "(%.9g, %.9g, %.9g)", p.x, p.y, p.z);
     const std::string cause = std::to_string(uncovered.size()) + " of " + std::to_string(n) +
                               " samples are in none of the " + std::to_string(balls.size()) +
                               " balls, the first is sample " + std::to_string(uncovered.front()) + " at " +
-                              place;
+                              in_words(points.points[static_cast<std::size_t>(uncovered.front())]);
     if (options.on_uncovered == OnUncovered::error) {
       throw InputError(cause,
                        "check that the balls were chosen for these points, or set on_uncovered to report");
@@ -165,32 +227,43 @@ std::int64_t verify_certificate(const CoverState& cover, const Balls& candidates
     entry[static_cast<std::size_t>(listed[k])] = static_cast<std::int32_t>(k);
   }
   const SampleGrid grid(places);
-  std::vector<std::int32_t> met_by(listed.size(), -1);  // the last ball that met the entry
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (i % 256 == 0) monitor.step(static_cast<double>(i) / static_cast<double>(candidates.size()));
-    std::int64_t cost = 0;
-    std::int32_t group = -1;
-    const auto meet = [&](std::int32_t k) {
-      const auto e = static_cast<std::size_t>(k);
-      if (std::exchange(met_by[e], static_cast<std::int32_t>(i)) == static_cast<std::int32_t>(i)) return;
-      cost += cover.certificate_prices[e];
-      const std::int32_t other = std::exchange(group, cover.certificate_groups[e]);
-      if (other >= 0 && other != group) {
-        refuse("ball " + std::to_string(i) + " contains samples of the groups " + std::to_string(other) +
-               " and " + std::to_string(group));
-      }
-    };
-    const double reach = squared_reach(candidates.radii[i]);
-    grid.near(candidates.centers[i], candidates.radii[i], [&](std::int32_t k) {
-      if (in_reach(candidates.centers[i], reach, places[static_cast<std::size_t>(k)])) meet(k);
-    });
-    for (const std::int32_t s : candidates.samples_of(i)) {
-      if (entry[static_cast<std::size_t>(s)] >= 0) meet(entry[static_cast<std::size_t>(s)]);
-    }
-    if (cost > price_unit) {
-      refuse("ball " + std::to_string(i) + " contains samples whose prices sum to " + std::to_string(cost) +
-             " / " + std::to_string(price_unit) + ", more than 1");
-    }
+  std::vector<std::atomic<bool>> met(listed.size());
+  const std::size_t blocks = blocks_of(candidates.size(), block);
+  std::vector<std::string> causes(blocks);  // of each block, its first
+  std::atomic<std::size_t> first_cause{blocks};
+  for_each_block(candidates.size(), block, monitor, 0, 1,
+                 [&](std::size_t b, std::size_t first, std::size_t last) {
+                   std::vector<std::int32_t> inside;
+                   for (std::size_t i = first; i < last && b < first_cause; ++i) {
+                     inside.clear();
+                     const double reach = squared_reach(candidates.radii[i]);
+                     grid.near(candidates.centers[i], candidates.radii[i], [&](std::int32_t k) {
+                       if (in_reach(candidates.centers[i], reach, places[static_cast<std::size_t>(k)]))
+                         inside.push_back(k);
+                     });
+                     for (const std::int32_t s : candidates.samples_of(i)) {
+                       if (entry[static_cast<std::size_t>(s)] >= 0)
+                         inside.push_back(entry[static_cast<std::size_t>(s)]);
+                     }
+                     std::sort(inside.begin(), inside.end());
+                     inside.erase(std::unique(inside.begin(), inside.end()), inside.end());
+                     for (const std::int32_t k : inside)
+                       met[static_cast<std::size_t>(k)].store(true, std::memory_order_relaxed);
+                     causes[b] = broken_condition(cover, i, inside);
+                     if (causes[b].empty()) continue;
+                     // Blocks before this one go on: the first ball of all is named, whoever finds one first.
+                     std::size_t known = first_cause;
+                     while (b < known && !first_cause.compare_exchange_weak(known, b)) {
+                     }
+                     break;
+                   }
+                 });
+  if (first_cause < blocks) refuse(causes[first_cause]);
+  for (std::size_t k = 0; k < listed.size(); ++k) {
+    if (met[k]) continue;
+    refuse("sample " + std::to_string(listed[k]) + " at " + in_words(places[k]) + " is in none of the " +
+           std::to_string(candidates.size()) + " balls, so that none has to pay its price " +
+           std::to_string(cover.certificate_prices[k]) + " / " + std::to_string(price_unit));
   }
   monitor.step(1);
   return cover.certified_bound();

@@ -20,19 +20,22 @@ struct VerifyCoverOptions {
   OnUncovered on_uncovered = OnUncovered::error;
 };
 
-/// Looks for a ball around every sample by a uniform grid of samples. Shares nothing with cover_matrix but
-/// the membership predicate, and what that is not asked for: samples that define a ball are in it.
+/// Looks for a ball around every sample by a uniform grid of samples, in parallel. Shares nothing with
+/// cover_matrix but the membership predicate, and what that is not asked for: samples that define a ball are
+/// in it.
 ///
 /// Accepts and refuses the coordinates and defining samples that cover_matrix does.
 CoverCheck verify_cover(const Balls& balls, const PointSet& points, const VerifyCoverOptions& options = {},
                         Monitor& monitor = no_monitor());
 
-/// Checks the certificate of `cover` (see CoverState) from geometry: conditions (1) and (2) for each of
+/// Checks the certificate of `cover` (see CoverState) from geometry: conditions (1) to (3) for
 /// `candidates`, the balls of the instance, and the samples in `points`. Nothing else of `cover` is believed.
 /// Returns the number of balls that every cover by `candidates` needs.
 ///
 /// Refused with InputError: a certificate that is malformed, that is about other numbers of balls and
-/// samples, or that breaks a condition, naming the ball; a lower bound that is called certified and is not.
+/// samples, or that breaks a condition, naming the first ball that does; one that lists a sample in no
+/// candidate, naming it: no ball would have to pay its price; a lower bound that is called certified and is
+/// not.
 std::int64_t verify_certificate(const CoverState& cover, const Balls& candidates, const PointSet& points,
                                 Monitor& monitor = no_monitor());
 

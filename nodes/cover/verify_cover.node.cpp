@@ -18,7 +18,7 @@ struct VerifyCover {
   VerifyCoverOptions options;
 
   static void declare(NodeDecl<VerifyCover>& d) {
-    d.id("VerifyCover", 2)
+    d.id("VerifyCover", 3)
         .summary(
             "Check from geometry that every sample lies in a ball, and that no cover has fewer than proved.");
     d.doc(
@@ -26,9 +26,9 @@ struct VerifyCover {
         "other "
         "origin. With the cover and the balls of its covering matrix it also checks the certificate of the "
         "lower "
-        "bound: no ball may contain samples that cost more than 1 or belong to two groups. A certificate "
-        "that "
-        "breaks this is refused. Covering the samples is not covering the surface between them.");
+        "bound: no ball may contain samples that cost more than 1 or belong to two groups, and every sample "
+        "that has a price must lie in a ball. A certificate that breaks this is refused. Covering the "
+        "samples is not covering the surface between them.");
     d.avoid_when("the error between samples is asked: it looks at the samples alone");
     d.cites("kornberger2010", "3.6.1");
     d.input("balls", &VerifyCover::balls).doc("the selected balls");

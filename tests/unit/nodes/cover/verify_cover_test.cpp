@@ -1,6 +1,8 @@
 #include "cover/verify_cover.hpp"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include "cover/cover_matrix.hpp"
 #include "cover/greedy.hpp"
@@ -8,6 +10,7 @@
 #include "cover/local_search.hpp"
 #include "cover/reduce.hpp"
 #include "cover_oracle.hpp"
+#include "search/membership.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -183,6 +186,96 @@ TEST(verify_certificate, refuses_another_sample_in_place_of_a_witness) {
   }
   EXPECT_GT(tried, 10);
   EXPECT_GE(refused * 10, tried * 9);  // another sample may be as hard to reach
+}
+
+TEST(verify_certificate, refuses_samples_in_no_ball_for_which_nobody_pays) {
+  Pruned p = pruned_torus(11);
+  const CoverState honest = p.cover;
+  std::vector<Vec3> places(p.points.points.begin(), p.points.points.end());
+  const auto far = static_cast<std::int32_t>(places.size());
+  places.push_back({50, 0, 0});
+  places.push_back({60, 0, 0});
+  p.points.points = places;
+  p.cover.samples += 2;
+  ASSERT_EQ(refusal(p.cover, p.balls, p.points), "") << "samples in no ball that have no price";
+  // Each in a group of its own and at price 1: the bound claims two balls more.
+  std::vector<std::int32_t> samples(honest.certificate_samples.begin(), honest.certificate_samples.end()),
+      prices(honest.certificate_prices.begin(), honest.certificate_prices.end()),
+      groups(honest.certificate_groups.begin(), honest.certificate_groups.end());
+  for (const std::int32_t s : {far, far + 1}) {
+    samples.push_back(s);
+    prices.push_back(static_cast<std::int32_t>(price_unit));
+    groups.push_back(groups.back() + 1);
+  }
+  p.cover.certificate_samples = samples;
+  p.cover.certificate_prices = prices;
+  p.cover.certificate_groups = groups;
+  p.cover.lower_bound = p.cover.certified_bound();
+  ASSERT_EQ(p.cover.lower_bound, honest.certified_bound() + 2);
+  ASSERT_EQ(broken_invariant(p.cover), "");
+  const std::string cause = refusal(p.cover, p.balls, p.points);
+  EXPECT_NE(cause.find("sample " + std::to_string(far) + " at (50, 0, 0) is in none of the"),
+            std::string::npos)
+      << cause;
+  // A ball of its own, and it is true.
+  std::vector<Vec3> centers(p.balls.centers.begin(), p.balls.centers.end());
+  std::vector<double> radii(p.balls.radii.begin(), p.balls.radii.end());
+  for (const double x : {50.0, 60.0}) {
+    centers.push_back({x, 0, 0});
+    radii.push_back(1);
+  }
+  p.cover.balls += 2;
+  EXPECT_EQ(verify_certificate(p.cover, {centers, radii, {}, {}}, p.points), p.cover.lower_bound);
+}
+
+template <class Run>
+auto with_threads(int threads, Run run) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  return arena.execute(run);
+}
+
+TEST(verify_cover, does_not_depend_on_the_number_of_threads) {
+  const test::Scene scene = test::torus(6000, 0.02, 12);
+  // Every third ball, so that some samples are in none.
+  std::vector<Vec3> centers;
+  std::vector<double> radii;
+  for (std::size_t i = 0; i < scene.balls.size(); i += 3) {
+    centers.push_back(scene.balls.centers[i]);
+    radii.push_back(0.9 * scene.balls.radii[i]);
+  }
+  const Balls balls{centers, radii, {}, {}};
+  const auto check = [&] { return verify_cover(balls, scene.points, {.on_uncovered = OnUncovered::report}); };
+  const CoverCheck one = with_threads(1, check);
+  std::vector<std::int32_t> expected;  // by brute force
+  for (std::size_t s = 0; s < scene.points.points.size(); ++s) {
+    bool in_one = false;
+    for (std::size_t i = 0; i < balls.size() && !in_one; ++i) {
+      in_one = in_reach(balls.centers[i], squared_reach(balls.radii[i]), scene.points.points[s]);
+    }
+    if (!in_one) expected.push_back(static_cast<std::int32_t>(s));
+  }
+  EXPECT_GT(expected.size(), 10u);
+  EXPECT_LT(expected.size(), scene.points.points.size());
+  EXPECT_EQ(one.uncovered, Array<std::int32_t>(expected));
+  for (const int threads : {2, 4}) EXPECT_EQ(with_threads(threads, check).uncovered, one.uncovered);
+}
+
+TEST(verify_certificate, names_the_same_ball_whatever_the_number_of_threads) {
+  // All prices are doubled: most balls cost too much, in many blocks.
+  const test::Scene scene = test::torus(3000, 0.05, 13);
+  CoverState cover = lagrangian_bound(cover_matrix(scene.balls, scene.points).cover);
+  std::vector<std::int32_t> prices(cover.certificate_prices.begin(), cover.certificate_prices.end());
+  for (std::int32_t& price : prices) price = std::min<std::int32_t>(2 * price, price_unit);
+  cover.certificate_prices = prices;
+  cover.lower_bound = std::max(cover.lower_bound, cover.certified_bound());
+  const auto run = [&] { return refusal(cover, scene.balls, scene.points); };
+  const std::string one = with_threads(1, run);
+  EXPECT_NE(one.find("more than 1"), std::string::npos) << one;
+  for (const int threads : {2, 4}) {
+    for (int round = 0; round < 5; ++round) EXPECT_EQ(with_threads(threads, run), one);
+  }
 }
 
 TEST(verify_certificate, a_mutated_certificate_is_refused_or_still_true) {
