@@ -57,6 +57,10 @@ void ContainmentFilter::offer(const Ball& ball) {
   entries_[at[0] * stride_[0] + at[1] * stride_[1] + at[2]].improve(ball, center_of(at));
 }
 
+void ContainmentFilter::merge(const ContainmentFilter& later) {
+  for (std::size_t i = 0; i < entries_.size(); ++i) entries_[i].improve(later.entries_[i]);
+}
+
 void ContainmentFilter::spread(Monitor& monitor) {
   Lookout look(monitor);
   const auto sweep = [&](bool forward) {

@@ -19,6 +19,8 @@ class ContainmentFilter {
   ContainmentFilter(const Box& box, double voxels);
 
   void offer(const Ball& ball);
+  /// As if what `later`, a filter of the same box and voxels, was offered were offered to this one now.
+  void merge(const ContainmentFilter& later);
   void spread(Monitor& monitor);
 
   /// The ball is strictly inside one that was offered, whatever was rounded here.
@@ -33,6 +35,9 @@ class ContainmentFilter {
     Ball ball;
     double depth;
     void improve(const Ball& other, Vec3 voxel_center);
+    void improve(const Entry& other) {
+      if (other.depth > depth) *this = other;
+    }
   };
   Vec3 lower_;
   double edge_ = 1, inverse_ = 1;

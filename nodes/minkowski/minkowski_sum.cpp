@@ -1,15 +1,19 @@
 #include "minkowski/minkowski_sum.hpp"
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/for_each_block.hpp"
+#include "base/index.hpp"
 #include "minkowski/containment_filter.hpp"
 #include "minkowski/power_triangulation.hpp"
 #include "minkowski/sums.hpp"
@@ -40,16 +44,24 @@ void require_usable(const Balls& balls, const char* name) {
 // bytes a vertex. Of millions of pairs one in 20 is a vertex, of what is left by the filter one in four.
 constexpr double bytes_per_pair = 108, bytes_per_survivor = 248;
 
-void require_memory(std::int64_t sums, double bytes_per_sum) {
-  const double bytes = bytes_per_sum * static_cast<double>(sums);
+/// How many sums fit into the memory of the machine, and have indices.
+std::int64_t most_sums(double bytes_per_sum) {
   const double memory =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  if (sums < std::numeric_limits<std::int32_t>::max() && bytes <= memory) return;
+  return static_cast<std::int64_t>(std::min(memory / bytes_per_sum, static_cast<double>(most_indices - 1)));
+}
+
+/// `sums` would have to be triangulated, or `more` than that.
+void require_memory(std::int64_t sums, double bytes_per_sum, bool more = false) {
+  if (sums <= most_sums(bytes_per_sum) && !more) return;
+  const double memory =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   char text[96];
-  std::snprintf(text, sizeof text, "about %.1f GB; the machine has %.1f GB", bytes / 1e9, memory / 1e9);
-  throw InputError(
-      std::to_string(sums) + " sums of two balls would have to be triangulated, which takes " + text,
-      "prune the inputs more (a larger epsilon), or use algorithm filtered or memory");
+  std::snprintf(text, sizeof text, "about %.1f GB; the machine has %.1f GB",
+                bytes_per_sum * static_cast<double>(sums) / 1e9, memory / 1e9);
+  throw InputError((more ? "more than " : "") + std::to_string(sums) +
+                       " sums of two balls would have to be triangulated, which takes " + text,
+                   "prune the inputs more (a larger epsilon), or use algorithm filtered or memory");
 }
 
 std::vector<Ball> all_sums(const Sums& sums, Monitor& monitor) {
@@ -63,29 +75,65 @@ std::vector<Ball> all_sums(const Sums& sums, Monitor& monitor) {
 /// All sums but some that lie strictly inside another. At a point of such a ball the power to the one around
 /// it is smaller, so it does not contribute; and nothing else changes: a ball contributes or not whether or
 /// not balls that do not contribute are there, because below 0 the least power is that to a ball that does.
+///
+/// Pairs are looked at in parallel, and in effect one after the other: filters of successive parts of the
+/// stream that are merged in their order hold what one filter would, and so does what passes.
 std::vector<Ball> filtered_sums(const Sums& sums, Monitor& monitor) {
-  ContainmentFilter filter(sums.box(), std::clamp(static_cast<double>(sums.pairs()) / 16, 1.0, 0x1p18));
-  sums.for_each_bucket(monitor, 0, 0.05, [&filter](const Bucket& one, const Bucket& other) {
-    for (const Ball& ball : one.balls) filter.offer(ball + other.largest);
-    for (const Ball& ball : other.balls) filter.offer(one.largest + ball);
+  const std::size_t pairs = sums.bucket_pairs();
+  const auto make_filter = [&sums] {
+    return ContainmentFilter(sums.box(), std::clamp(static_cast<double>(sums.pairs()) / 16, 1.0, 0x1p18));
+  };
+  // Each part has a filter of its own: no more of these than are worth their 10 MB.
+  const std::size_t parts = std::clamp<std::size_t>(
+      std::min(pairs >> 16, static_cast<std::size_t>(tbb::this_task_arena::max_concurrency())), 1, 8);
+  std::vector<ContainmentFilter> filters;
+  for (std::size_t part = 0; part < parts; ++part) filters.push_back(make_filter());
+  constexpr std::size_t step =
+      4096;  // pairs of buckets between two looks at the monitor, less than a millisecond
+  const std::size_t part_size = (pairs + parts - 1) / parts;
+  std::atomic<std::size_t> seen{0};
+  tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t part) {
+    const std::size_t end = std::min(pairs, (part + 1) * part_size);
+    for (std::size_t first = part * part_size; first < end; first += step) {
+      const std::size_t last = std::min(end, first + step);
+      sums.for_each_bucket(first, last, [&filter = filters[part]](const Bucket& one, const Bucket& other) {
+        for (const Ball& ball : one.balls) filter.offer(ball + other.largest);
+        for (const Ball& ball : other.balls) filter.offer(one.largest + ball);
+      });
+      monitor.step(0.05 * static_cast<double>(seen += last - first) / static_cast<double>(pairs));
+    }
   });
+  ContainmentFilter filter = std::move(filters[0]);
+  for (std::size_t part = 1; part < parts; ++part) filter.merge(filters[part]);
+  filters.clear();
   filter.spread(monitor);
-  std::vector<Ball> left;
-  std::size_t looked_at = 0;
-  sums.for_each_bucket(monitor, 0.05, 0.15, [&](const Bucket& one, const Bucket& other) {
-    if (filter.contains(one.bound + other.bound)) return;
-    for (const Ball& a : one.balls) {
-      for (const Ball& b : other.balls) {
-        const Ball sum = a + b;
-        if (!filter.contains(sum)) left.push_back(sum);
-      }
-    }
-    if (left.size() - looked_at >= (std::size_t{1} << 20)) {
-      looked_at = left.size();
-      require_memory(static_cast<std::int64_t>(left.size()), bytes_per_survivor);
-    }
-  });
-  return left;
+
+  const std::int64_t most = most_sums(bytes_per_survivor);
+  std::vector<std::vector<Ball>> left(blocks_of(pairs, step));
+  std::atomic<std::int64_t> count{0};
+  for_each_block(pairs, step, monitor, 0.05, 0.15,
+                 [&](std::size_t block, std::size_t first, std::size_t last) {
+                   std::vector<Ball> passed;
+                   sums.for_each_bucket(first, last, [&](const Bucket& one, const Bucket& other) {
+                     if (filter.contains(one.bound + other.bound)) return;
+                     for (const Ball& a : one.balls) {
+                       for (const Ball& b : other.balls) {
+                         const Ball sum = a + b;
+                         if (!filter.contains(sum)) passed.push_back(sum);
+                       }
+                     }
+                   });
+                   const auto size = static_cast<std::int64_t>(passed.size());
+                   if ((count += size) > most) require_memory(most, bytes_per_survivor, true);
+                   left[block] = std::move(passed);
+                 });
+  std::vector<Ball> all;
+  all.reserve(static_cast<std::size_t>(count));
+  for (std::vector<Ball>& passed : left) {
+    all.insert(all.end(), passed.begin(), passed.end());
+    std::vector<Ball>().swap(passed);
+  }
+  return all;
 }
 
 Balls canonical(std::vector<Ball> sums) {

@@ -12,6 +12,7 @@
 #include <iterator>
 #include <utility>
 
+#include "base/index.hpp"
 #include "base/space_order.hpp"
 #include "minkowski/contribution.hpp"
 
@@ -99,11 +100,12 @@ struct Tables {
     triangulation.infinite_vertex()->info().id = none;
     for (const auto vertex : triangulation.finite_vertex_handles()) {
       look(16);
-      vertex->info().id = static_cast<std::int32_t>(sites.size());
+      vertex->info().id = index_of(sites.size(), "vertices of the triangulation of the sums");
       sites.push_back(site_of(vertex->point()));
       balls.push_back({sites.back().center, vertex->info().radius});
     }
     const auto& all = triangulation.tds().cells();
+    index_of(all.size(), "cells of the triangulation of the sums");
     cells.reserve(all.size());
     for (auto cell = all.begin(); cell != all.end(); ++cell) {
       look(16);

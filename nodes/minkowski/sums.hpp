@@ -37,31 +37,34 @@ class Sums {
   /// Of the centers of all sums.
   const Box& box() const { return box_; }
 
-  /// Calls visit(bucket of one set, bucket of the other) for all pairs of buckets; the progress goes from
-  /// `begin` to `end`. A pair of balls is as much work as visiting `work` array elements.
+  /// Pairs of a bucket of one set and a bucket of the other.
+  std::size_t bucket_pairs() const { return a_.size() * b_.size(); }
+  /// Calls visit(bucket of one set, bucket of the other) for the pairs [first, last) of buckets.
   template <class Visit>
-  void for_each_bucket(Monitor& monitor, double begin, double end, Visit visit, std::size_t work = 8) const {
-    PartMonitor part(monitor, begin, end);
-    Lookout look(monitor);
-    for (std::size_t i = 0; i < a_.size(); ++i) {
-      for (const Bucket& b : b_) {
-        if (look.due(work * a_[i].balls.size() * b.balls.size())) {
-          part.step(static_cast<double>(i) / static_cast<double>(a_.size()));
-        }
-        visit(a_[i], b);
-      }
+  void for_each_bucket(std::size_t first, std::size_t last, Visit visit) const {
+    if (first == last) return;
+    for (std::size_t i = first / b_.size(), j = first % b_.size(); first < last; ++first) {
+      visit(a_[i], b_[j]);
+      if (++j == b_.size()) ++i, j = 0;
     }
   }
 
-  /// Calls visit(sum) for all pairs.
+  /// Calls visit(sum) for all pairs; the progress goes from `begin` to `end`. A pair of balls is as much work
+  /// as visiting `work` array elements.
   template <class Visit>
   void for_each(Monitor& monitor, double begin, double end, Visit visit, std::size_t work = 8) const {
-    const auto visit_all = [&visit](const Bucket& one, const Bucket& other) {
+    PartMonitor part(monitor, begin, end);
+    Lookout look(monitor);
+    std::size_t done = 0;
+    for_each_bucket(0, bucket_pairs(), [&](const Bucket& one, const Bucket& other) {
+      if (look.due(work * one.balls.size() * other.balls.size())) {
+        part.step(static_cast<double>(done) / static_cast<double>(bucket_pairs()));
+      }
+      ++done;
       for (const Ball& a : one.balls) {
         for (const Ball& b : other.balls) visit(a + b);
       }
-    };
-    for_each_bucket(monitor, begin, end, visit_all, work);
+    });
   }
 
  private:

@@ -54,5 +54,25 @@ TEST(containment_filter, what_it_says_is_inside_is_inside_and_that_is_most_of_it
   }
 }
 
+TEST(containment_filter, merged_parts_hold_what_one_filter_holds) {
+  // Balls on a grid: many are equally deep in a voxel, and the first of them stays.
+  std::mt19937_64 random(2);
+  std::vector<Ball> balls(5000);
+  const auto digit = [&] { return static_cast<double>(random() % 16) / 16; };
+  for (Ball& ball : balls) ball = {{digit(), digit(), digit()}, 0.25 * digit()};
+  const ContainmentFilter whole = filter_of(balls, 500);
+  for (const std::size_t parts : {2u, 3u, 8u}) {
+    std::vector<ContainmentFilter> filters(parts, ContainmentFilter(box_of(balls), 500));
+    for (std::size_t i = 0; i < balls.size(); ++i) filters[i * parts / balls.size()].offer(balls[i]);
+    for (std::size_t part = 1; part < parts; ++part) filters[0].merge(filters[part]);
+    filters[0].spread(no_monitor());
+    for (const Ball& ball : balls) {
+      ASSERT_EQ(filters[0].contains(ball), whole.contains(ball));
+      const Ball shifted{{ball.center.x + 0x1p-6, ball.center.y, ball.center.z}, 0.75 * ball.radius};
+      ASSERT_EQ(filters[0].contains(shifted), whole.contains(shifted));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ballflow::geometry

@@ -1,8 +1,11 @@
 #include "minkowski/minkowski_sum.hpp"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <random>
 #include <tuple>
@@ -326,6 +329,33 @@ TEST(minkowski_sum, streams_more_pairs_than_it_stores) {
   EXPECT_EQ(numbers_of(sum.balls), (Numbers{{0, 0, 0, 20}, {1, 0, 0, 20}, {2, 0, 0, 20}}));
 }
 
+TEST(minkowski_sum, does_not_depend_on_the_number_of_threads) {
+  // So many pairs that they are looked at in parts, with ties: coordinates on a coarse grid.
+  RandomBalls random(10);
+  Numbers a(2200), b(1800);
+  for (Numbers* set : {&a, &b}) {
+    for (auto& ball : *set) {
+      ball = {random.uniform(0, 4), random.uniform(0, 4), random.uniform(0, 4), random.uniform(0.5, 1.5)};
+      for (double& x : ball) x = std::round(8 * x) / 8;
+    }
+  }
+  const auto run = [&](int threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+    tbb::task_arena arena(threads);
+    return arena.execute([&] { return minkowski_sum(balls_of(a), balls_of(b)); });
+  };
+  const MinkowskiSum one = run(1);
+  EXPECT_GT(one.report.survivors, one.report.count);
+  for (const int threads : {2, 4}) {
+    const MinkowskiSum more = run(threads);
+    EXPECT_EQ(more.balls.centers, one.balls.centers);
+    EXPECT_EQ(more.balls.radii, one.balls.radii);
+    EXPECT_EQ(more.report.survivors, one.report.survivors) << "the filter holds what it held";
+    EXPECT_EQ(more.report.touching_boundary, one.report.touching_boundary);
+  }
+}
+
 TEST(minkowski_sum, needs_no_general_position_for_its_speed) {
   // A grid of balls, each of which holds a tangent one: every decision about those is exact.
   Numbers a;
@@ -428,7 +458,7 @@ class CancelAfter final : public Monitor {
   bool cancelled() override { return --left_ < 0; }
 
  private:
-  int left_;
+  std::atomic<int> left_;
 };
 
 TEST(minkowski_sum, ends_when_it_is_cancelled) {
