@@ -7,6 +7,8 @@
 #include <numeric>
 #include <vector>
 
+#include "base/index.hpp"
+
 namespace ballflow::geometry {
 
 /// A set is named by its least element, whatever order sets are joined in. (boost::disjoint_sets needs a
@@ -14,7 +16,9 @@ namespace ballflow::geometry {
 class DisjointSets {
  public:
   /// n sets of one element each.
-  explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+  explicit DisjointSets(std::size_t n) : parent_(at(index_of(n, "elements of disjoint sets"))) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
 
   /// The least element of the set of i.
   std::int32_t root(std::int32_t i) {

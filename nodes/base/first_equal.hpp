@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "base/index.hpp"
 #include "base/vec3.hpp"
 
 namespace ballflow::geometry {
@@ -16,10 +17,12 @@ inline std::uint64_t mix_hash(std::uint64_t h, std::uint64_t value) {
   return h ^ (h >> 29);
 }
 
-/// For each of fewer than 2^31 items the first item equal to it. `hash` and `equal` take item numbers.
+/// For each item the first item equal to it. `hash` and `equal` take item numbers. Throws InputError for 2^31
+/// items and more.
 template <class Hash, class Equal>
 std::vector<std::int32_t> first_equal(std::size_t count, Hash hash, Equal equal) {
   constexpr std::int32_t none = -1;
+  index_of(count, "things to compare");
   const std::size_t slots = std::bit_ceil(2 * count + 1);
   std::vector<std::int32_t> table(slots, none);
   std::vector<std::int32_t> first(count);

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/index.hpp"
 #include "cover/ip_solver.hpp"
 
 namespace ballflow::geometry {
@@ -49,7 +50,9 @@ class EndNodes final : public CbcEventHandler {
 
 void load(OsiClpSolverInterface& lp, const IpProblem& problem) {
   const Csr& columns = problem.columns;
-  const auto variables = static_cast<int>(problem.rows), constraints = static_cast<int>(columns.size());
+  const std::int32_t variables = index_of(problem.rows, "balls for CBC"),
+                     constraints = index_of(columns.size(), "samples for CBC");
+  index_of(columns.entries.size(), "entries of the matrix for CBC");  // also where they start, below
   // A constraint for every column of the covering matrix.
   const std::vector<double> ones(columns.entries.size(), 1.0);
   const std::vector<CoinBigIndex> starts(columns.offsets.begin(), columns.offsets.end());

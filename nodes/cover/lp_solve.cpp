@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "base/index.hpp"
 #include "cover/ip_solver.hpp"
 
 namespace ballflow::geometry {
@@ -33,7 +34,7 @@ class LpSolve final : public IpSolver {
     static std::mutex one_at_a_time;
     const std::scoped_lock lock(one_at_a_time);
 
-    const auto count = static_cast<int>(ip.rows);
+    const auto count = index_of(ip.rows, "balls for lp_solve");
     const std::unique_ptr<lprec, void (*)(lprec*)> problem(make_lp(0, count), delete_lp);
     if (!problem) throw std::bad_alloc();
     lprec* lp = problem.get();
