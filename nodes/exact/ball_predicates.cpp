@@ -5,40 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "exact/double_double.hpp"
+
 namespace ballflow::geometry {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-
-// The sum of two doubles, the second less than half a unit in the last place of the first: about 106 bits.
-// Errors are below 2^-103 (|a| + |b|) for a + b and a - b, and below 2^-103 |a b| for a b, unless something
-// underflows [Dekker 1971; Joldes, Muller and Popescu 2017].
-struct DoubleDouble {
-  double high = 0, low = 0;
-
-  static DoubleDouble sum(double a, double b) {  // exact
-    const double high = a + b, part = high - a;
-    return {high, (a - (high - part)) + (b - part)};
-  }
-  static DoubleDouble product(double a, double b) {  // exact
-    const auto halves = [](double x) {
-      const double shifted = 134217729 * x, upper = shifted - (shifted - x);
-      return DoubleDouble{upper, x - upper};
-    };
-    const DoubleDouble x = halves(a), y = halves(b);
-    const double high = a * b;
-    return {high, ((x.high * y.high - high) + x.high * y.low + x.low * y.high) + x.low * y.low};
-  }
-  friend DoubleDouble operator+(DoubleDouble a, DoubleDouble b) {
-    const DoubleDouble s = sum(a.high, b.high);
-    return sum(s.high, s.low + (a.low + b.low));
-  }
-  friend DoubleDouble operator-(DoubleDouble a, DoubleDouble b) { return a + DoubleDouble{-b.high, -b.low}; }
-  friend DoubleDouble operator*(DoubleDouble a, DoubleDouble b) {
-    const DoubleDouble p = product(a.high, b.high);
-    return sum(p.high, p.low + (a.high * b.low + a.low * b.high));
-  }
-};
 
 template <class Real>
 struct Arithmetic;

@@ -19,9 +19,12 @@
 #include <optional>
 #include <string>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "base/disjoint_sets.hpp"
+#include "base/index.hpp"
+#include "exact/double_double.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -151,9 +154,12 @@ double conditioning(const std::array<Vec3, 4>& points) {
 // The circumcentre of p, q, r, s in the arithmetic of Real, or nothing when `conditioning` is not above
 // `least`: rounding errors, about 100 units in the last place of the numerator, grow by 1 / sqrt(least).
 template <class Real>
-std::optional<Vec3> circumcentre(Vec3 p, Vec3 q, Vec3 r, Vec3 s, Real least) {
+std::optional<Vec3> circumcentre(Vec3 p, Vec3 q, Vec3 r, Vec3 s, double least) {
   using Vector = std::array<Real, 3>;
-  const auto edge = [p](Vec3 to) { return Vector{Real(to.x) - p.x, Real(to.y) - p.y, Real(to.z) - p.z}; };
+  const auto edge = [p](Vec3 to) {
+    return Vector{difference_of<Real>(to.x, p.x), difference_of<Real>(to.y, p.y),
+                  difference_of<Real>(to.z, p.z)};
+  };
   const auto product = [](const Vector& u, const Vector& v) {
     return Vector{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
   };
@@ -162,27 +168,31 @@ std::optional<Vec3> circumcentre(Vec3 p, Vec3 q, Vec3 r, Vec3 s, Real least) {
   };
   const Vector a = edge(q), b = edge(r), c = edge(s);
   const Real aa = scalar(a, a), bb = scalar(b, b), cc = scalar(c, c);
+  if constexpr (std::is_same_v<Real, DoubleDouble>) {
+    // So that the second halves of what is multiplied below neither vanish nor overflow.
+    const auto [shortest, longest] = std::minmax({nearest(aa), nearest(bb), nearest(cc)});
+    if (!(shortest > 1e-90 && longest < 1e90)) return std::nullopt;
+  }
   const Vector bc = product(b, c), ca = product(c, a), ab = product(a, b);
   const Real det = scalar(a, bc), scale = aa * bb * cc;
-  if (!(scale > Real(1e-250) && det * det > least * scale)) return std::nullopt;
-  const Real factor = Real(0.5) / det;
+  if (!(nearest(scale) > 1e-250 && nearest(det * det) > least * nearest(scale))) return std::nullopt;
+  const Real factor = Real{0.5} / det;
   const auto coordinate = [&](double from, std::size_t k) {
-    return static_cast<double>(from + factor * (aa * bc[k] + bb * ca[k] + cc * ab[k]));
+    return nearest(Real{from} + factor * (aa * bc[k] + bb * ca[k] + cc * ab[k]));
   };
   return Vec3{coordinate(p.x, 0), coordinate(p.y, 1), coordinate(p.z, 2)};
 }
 
-// Circumcentres are wrong by at most about 1e-10 radii: flat cells are computed with the 64-bit significand
-// of long double, very flat ones exactly. On scans 1 % and 0.01 % of the cells are that flat.
-constexpr double well_conditioned = 1e-8;
-constexpr long double well_conditioned_long = 1e-14L;
+// Circumcentres are wrong by at most about 1e-10 radii: flat cells are computed with pairs of doubles, very
+// flat ones exactly. On scans 1 % of the cells are flat; of the very flat ones most are in one plane.
+constexpr double well_conditioned = 1e-8, well_conditioned_in_pairs = 1e-32;
 // So no two cells of one Voronoi vertex have computed centres farther apart than this, in radii.
 constexpr double coincidence_tolerance = 1e-8;
 
 Vec3 circumcentre(const std::array<Vec3, 4>& points) {
   const auto [p, q, r, s] = points;
   if (const auto center = circumcentre<double>(p, q, r, s, well_conditioned)) return *center;
-  if (const auto center = circumcentre<long double>(p, q, r, s, well_conditioned_long)) return *center;
+  if (const auto center = circumcentre<DoubleDouble>(p, q, r, s, well_conditioned_in_pairs)) return *center;
   using Exact = CGAL::Simple_cartesian<CGAL::Gmpq>;
   const auto exact = [](Vec3 v) { return Exact::Point_3(v.x, v.y, v.z); };
   const Exact::Point_3 center = CGAL::circumcenter(exact(p), exact(q), exact(r), exact(s));
@@ -284,7 +294,7 @@ VoronoiDiagram voronoi_diagram(const PointSet& sample, double bounding_distance,
     if (triangulation.is_infinite(cell)) {
       cell->info() = -1;
     } else {
-      cell->info() = static_cast<std::int32_t>(cells.size());
+      cell->info() = index_of(cells.size(), "cells of the Delaunay triangulation");
       cells.push_back(cell);
     }
   }

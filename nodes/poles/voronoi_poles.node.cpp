@@ -16,7 +16,7 @@ struct VoronoiPoles {
   VoronoiPolesOptions options;
 
   static void declare(NodeDecl<VoronoiPoles>& d) {
-    d.id("VoronoiPoles", 1);
+    d.id("VoronoiPoles", 2);
     d.summary("The two poles of every sample: far vertices of its Voronoi cell on either side.");
     d.doc(
         "The first pole of a sample is the vertex of its Voronoi cell farthest from it, the second the "

@@ -7,6 +7,8 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <random>
@@ -15,6 +17,7 @@
 #include <tuple>
 
 #include "io/read_mesh.hpp"
+#include "poles/voronoi_diagram.hpp"
 #include "shapes.hpp"
 #include "test_data.hpp"
 
@@ -450,6 +453,52 @@ TEST(voronoi_poles, of_nearly_flat_points_are_finite) {
     for (const std::int32_t s : samples_of(poles, i)) {
       EXPECT_NEAR(distance(poles.centers[i], points[at(s)]), poles.radii[i], tolerance);
     }
+  }
+}
+
+TEST(voronoi_poles, of_flat_cells_are_right_to_the_last_digits) {
+  // Tetrahedra from flat to very flat, and the centres of their spheres by rational numbers.
+  using Exact = CGAL::Gmpq;
+  for (int k = 12; k <= 24; ++k) {
+    const double h = std::ldexp(1.0, -k);
+    const std::vector<Vec3> points = {{1, 0, 0}, {-1, 0.25, 0}, {0.125, 1, 0}, {-0.25, -1, h}};
+    const geometry::VoronoiDiagram diagram = geometry::voronoi_diagram({points, {}}, 1e10);
+    // |x - p|^2 is the same for all four: three linear equations, solved by Cramer's rule.
+    std::array<std::array<Exact, 4>, 3> row;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 p = points[0], q = points[i + 1];
+      const auto square = [](const Vec3& v) {
+        return Exact(v.x) * Exact(v.x) + Exact(v.y) * Exact(v.y) + Exact(v.z) * Exact(v.z);
+      };
+      row[i] = {2 * (Exact(q.x) - Exact(p.x)), 2 * (Exact(q.y) - Exact(p.y)), 2 * (Exact(q.z) - Exact(p.z)),
+                square(q) - square(p)};
+    }
+    const auto determinant = [&](std::size_t x, std::size_t y, std::size_t z) -> Exact {
+      return row[0][x] * (row[1][y] * row[2][z] - row[2][y] * row[1][z]) -
+             row[1][x] * (row[0][y] * row[2][z] - row[2][y] * row[0][z]) +
+             row[2][x] * (row[0][y] * row[1][z] - row[1][y] * row[0][z]);
+    };
+    const Exact all = determinant(0, 1, 2);
+    const std::array<Exact, 3> center = {determinant(3, 1, 2) / all, determinant(0, 3, 2) / all,
+                                         determinant(0, 1, 3) / all};
+    const double radius =
+        std::sqrt(CGAL::to_double(center[0] * center[0] + center[1] * center[1] + center[2] * center[2]));
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t c = 0; c < diagram.size(); ++c) {
+      if (!std::all_of(diagram.sites[c].begin(), diagram.sites[c].end(),
+                       [&](std::int32_t site) { return diagram.is_sample(site); })) {
+        continue;
+      }
+      const Vec3 got = diagram.centers[c];
+      // Differences in rational numbers: the last digits count.
+      const double off = std::max({std::abs(CGAL::to_double(Exact(got.x) - center[0])),
+                                   std::abs(CGAL::to_double(Exact(got.y) - center[1])),
+                                   std::abs(CGAL::to_double(Exact(got.z) - center[2]))});
+      nearest = std::min(nearest, off);
+    }
+    // Flat ones are computed in pairs of doubles: nothing is lost but the last rounding.
+    const bool flat = h * h < 1e-9;
+    EXPECT_LE(nearest, (flat ? 0x1p-52 : 1e-10) * radius) << "height 2^-" << k;
   }
 }
 
