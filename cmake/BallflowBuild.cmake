@@ -1,8 +1,10 @@
 # Compiler settings of the whole tree, and the functions that make its targets.
 
 # Reproducible floating point on every x86-64: no -march=native, no fused multiply-add, no fast-math.
-# -frounding-math: CGAL's interval arithmetic changes the rounding mode.
-add_compile_options(-ffp-contract=off -frounding-math)
+# -frounding-math: CGAL's interval arithmetic changes the rounding mode. Installed targets hand these flags on, since
+# headers compute too; ballflow_node_library() sets them by itself.
+set(BALLFLOW_FLOATING_POINT -ffp-contract=off -frounding-math)
+add_compile_options(${BALLFLOW_FLOATING_POINT})
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Werror)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   add_compile_options(-Wno-maybe-uninitialized)  # false alarms inside inlined library code at -O2
@@ -87,6 +89,7 @@ function(ballflow_node_family family)
     target_include_directories(${geometry} INTERFACE ${visible})
     target_link_libraries(${geometry} INTERFACE ${libraries})
   endif()
+  target_compile_options(${geometry} INTERFACE "$<INSTALL_INTERFACE:${BALLFLOW_FLOATING_POINT}>")
   set_target_properties(${geometry} PROPERTIES EXPORT_NAME geometry_${family})
   target_link_libraries(ballflow_geometry INTERFACE ${geometry})
   set_property(GLOBAL APPEND PROPERTY BALLFLOW_GEOMETRY_TARGETS ${geometry})

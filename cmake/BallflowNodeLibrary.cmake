@@ -24,7 +24,7 @@ function(ballflow_make_node_library name)
   endforeach()
   foreach(target IN ITEMS ${name} ${programs})
     # As in ballflow itself: the same bytes on every machine.
-    target_compile_options(${target} PRIVATE -ffp-contract=off)
+    target_compile_options(${target} PRIVATE -ffp-contract=off -frounding-math)
     target_compile_features(${target} PRIVATE cxx_std_20)
     target_link_libraries(${target} PRIVATE ballflow::artifact_types)
   endforeach()
