@@ -5,6 +5,8 @@
 #include <map>
 #include <numeric>
 
+#include "base/index.hpp"
+
 namespace ballflow::geometry {
 namespace {
 
@@ -48,7 +50,8 @@ std::size_t binary_rank(std::vector<std::vector<std::int32_t>> rows) {
 BinarySystem::BinarySystem(std::size_t variables, std::span<const std::int64_t> offsets,
                            std::span<const std::int32_t> terms, std::span<const std::int32_t> zero,
                            Monitor& monitor)
-    : root_(variables + 1), zero_(static_cast<std::int32_t>(variables)) {
+    : root_(at(index_of(variables, "variables of a system (edges of a complex)")) + 1),
+      zero_(static_cast<std::int32_t>(variables)) {
   std::iota(root_.begin(), root_.end(), 0);
   for (const std::int32_t x : zero) root_[at(x)] = zero_;
 

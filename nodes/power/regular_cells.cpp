@@ -13,6 +13,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/index.hpp"
 #include "exact/ball_predicates.hpp"
 #include "exact/spatial_order.hpp"
 
@@ -116,12 +117,14 @@ Triangulation triangulate(std::span<const Vec3> centers, std::span<const double>
 RegularCells regular_cells(std::span<const Vec3> centers, std::span<const double> weights, Monitor& monitor) {
   RegularCells flat;
   if (centers.empty()) return flat;
+  index_of(centers.size(), "balls of a power diagram");
   Triangulation triangulation = triangulate(centers, weights, monitor);
   flat.dimension = triangulation.dimension();
   const int corners = flat.dimension + 1;
   triangulation.infinite_vertex()->info() = RegularCells::infinite;
 
   auto& cells = triangulation.tds().cells();
+  index_of(cells.size(), "cells of the power diagram");
   std::int32_t count = 0;
   for (auto cell = cells.begin(); cell != cells.end(); ++cell) cell->info() = count++;
   constexpr std::array<std::int32_t, 4> empty{RegularCells::none, RegularCells::none, RegularCells::none,

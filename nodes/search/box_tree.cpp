@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "base/index.hpp"
+
 namespace ballflow::geometry {
 namespace {
 
@@ -91,10 +93,10 @@ struct PointItems {
 template <class Items>
 void build(const Items& items, std::size_t count, std::size_t leaf_size, Monitor& monitor,
            std::vector<BoxTree::Node>& nodes, std::vector<std::int32_t>& order) {
-  order.resize(count);
+  order.resize(static_cast<std::size_t>(index_of(count, "items of a box tree")));
   std::iota(order.begin(), order.end(), 0);
   if (count == 0) return;
-  nodes.resize(nodes_for(count, leaf_size));
+  nodes.resize(static_cast<std::size_t>(index_of(nodes_for(count, leaf_size), "nodes of a box tree")));
   Builder(items, leaf_size, nodes, order, monitor).build(0, 0, count);
 }
 

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <span>
 
+#include "base/index.hpp"
 #include "types/polygon_edges.hpp"
 
 namespace ballflow::geometry {
@@ -26,6 +27,7 @@ void label_polygons(std::size_t polygons, const std::vector<Link>& links, AxisSh
     ++begin[at(link.second) + 1];
   }
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  index_of(links.size(), "pairs of polygons with a common edge");
   std::vector<std::int32_t> around(begin.back());  // links of each polygon
   std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
   for (std::size_t i = 0; i < links.size(); ++i) {

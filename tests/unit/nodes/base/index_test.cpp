@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <span>
 #include <string>
 
 #include "base/disjoint_sets.hpp"
 #include "base/first_equal.hpp"
+#include "homology/binary_system.hpp"
+#include "power/regular_cells.hpp"
+#include "search/box_tree.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -39,6 +43,24 @@ TEST(index, sets_and_equal_things_are_refused_before_there_is_memory_for_them) {
     return 0;
   };
   EXPECT_NE(refusal([&] { first_equal(too_many, unasked, unasked); }).find("2147483648"), std::string::npos);
+}
+
+TEST(index, trees_and_triangulations_are_refused_before_there_is_memory_for_them) {
+  // Spans of more than there is: nothing may be read.
+  const Vec3 point;
+  const double weight = 0;
+  const Box box;
+  const std::span<const Vec3> points(&point, too_many);
+  EXPECT_NE(refusal([&] { BoxTree tree(points, 1); }).find("of a box tree"), std::string::npos);
+  EXPECT_NE(refusal([&] { BoxTree tree(std::span<const Box>(&box, too_many), 4); }).find("of a box tree"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] {
+              regular_cells(points, std::span<const double>(&weight, too_many), no_monitor());
+            }).find("2147483648 balls"),
+            std::string::npos);
+  EXPECT_NE(
+      refusal([&] { BinarySystem system(too_many, {}, {}, {}, no_monitor()); }).find("2147483648 variables"),
+      std::string::npos);
 }
 
 }  // namespace
