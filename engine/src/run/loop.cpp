@@ -79,7 +79,8 @@ class LoopRun {
       request.message = [&](bool warning, const std::string& text) {
         pass_on(warning, request.node->path + ": " + text);
       };
-      ExecutionOutcome step = request.node->kind.loop() != nullptr ? execute_loop(request) : execute_node(request);
+      ExecutionOutcome step =
+          request.node->kind.loop() != nullptr ? execute_loop(request) : execute_node(request);
       if (step.status != ExecutionOutcome::Status::ok) {
         if (step.status == ExecutionOutcome::Status::failed) {
           outcome_.cause = request.node->path + " (" + request.node->kind.type() + ") failed in iteration " +

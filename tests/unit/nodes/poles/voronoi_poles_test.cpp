@@ -458,29 +458,28 @@ TEST(voronoi_poles, of_nearly_flat_points_are_finite) {
 
 TEST(voronoi_poles, of_flat_cells_are_right_to_the_last_digits) {
   // Tetrahedra from flat to very flat, and the centres of their spheres by rational numbers.
-  using Exact = CGAL::Gmpq;
   for (int k = 12; k <= 24; ++k) {
     const double h = std::ldexp(1.0, -k);
     const std::vector<Vec3> points = {{1, 0, 0}, {-1, 0.25, 0}, {0.125, 1, 0}, {-0.25, -1, h}};
     const geometry::VoronoiDiagram diagram = geometry::voronoi_diagram({points, {}}, 1e10);
     // |x - p|^2 is the same for all four: three linear equations, solved by Cramer's rule.
-    std::array<std::array<Exact, 4>, 3> row;
+    std::array<std::array<Rational, 4>, 3> row;
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec3 p = points[0], q = points[i + 1];
       const auto square = [](const Vec3& v) {
-        return Exact(v.x) * Exact(v.x) + Exact(v.y) * Exact(v.y) + Exact(v.z) * Exact(v.z);
+        return Rational(v.x) * Rational(v.x) + Rational(v.y) * Rational(v.y) + Rational(v.z) * Rational(v.z);
       };
-      row[i] = {2 * (Exact(q.x) - Exact(p.x)), 2 * (Exact(q.y) - Exact(p.y)), 2 * (Exact(q.z) - Exact(p.z)),
-                square(q) - square(p)};
+      row[i] = {2 * (Rational(q.x) - Rational(p.x)), 2 * (Rational(q.y) - Rational(p.y)),
+                2 * (Rational(q.z) - Rational(p.z)), square(q) - square(p)};
     }
-    const auto determinant = [&](std::size_t x, std::size_t y, std::size_t z) -> Exact {
+    const auto determinant = [&](std::size_t x, std::size_t y, std::size_t z) -> Rational {
       return row[0][x] * (row[1][y] * row[2][z] - row[2][y] * row[1][z]) -
              row[1][x] * (row[0][y] * row[2][z] - row[2][y] * row[0][z]) +
              row[2][x] * (row[0][y] * row[1][z] - row[1][y] * row[0][z]);
     };
-    const Exact all = determinant(0, 1, 2);
-    const std::array<Exact, 3> center = {determinant(3, 1, 2) / all, determinant(0, 3, 2) / all,
-                                         determinant(0, 1, 3) / all};
+    const Rational all = determinant(0, 1, 2);
+    const std::array<Rational, 3> center = {determinant(3, 1, 2) / all, determinant(0, 3, 2) / all,
+                                            determinant(0, 1, 3) / all};
     const double radius =
         std::sqrt(CGAL::to_double(center[0] * center[0] + center[1] * center[1] + center[2] * center[2]));
     double nearest = std::numeric_limits<double>::infinity();
@@ -491,9 +490,9 @@ TEST(voronoi_poles, of_flat_cells_are_right_to_the_last_digits) {
       }
       const Vec3 got = diagram.centers[c];
       // Differences in rational numbers: the last digits count.
-      const double off = std::max({std::abs(CGAL::to_double(Exact(got.x) - center[0])),
-                                   std::abs(CGAL::to_double(Exact(got.y) - center[1])),
-                                   std::abs(CGAL::to_double(Exact(got.z) - center[2]))});
+      const double off = std::max({std::abs(CGAL::to_double(Rational(got.x) - center[0])),
+                                   std::abs(CGAL::to_double(Rational(got.y) - center[1])),
+                                   std::abs(CGAL::to_double(Rational(got.z) - center[2]))});
       nearest = std::min(nearest, off);
     }
     // Flat ones are computed in pairs of doubles: nothing is lost but the last rounding.
