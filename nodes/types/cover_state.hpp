@@ -56,9 +56,8 @@ struct CoverState {
 
   // Certificate of a lower bound: sample certificate_samples[i] (original index) has the price
   // certificate_prices[i] / price_unit, in group certificate_groups[i]. If
-  //   (1) no ball of the original instance contains samples whose prices sum to more than 1, and
-  //   (2) no ball of the original instance contains listed samples of two groups,
-  //   (3) every listed sample lies in a ball of the original instance,
+  //   (1) no ball of the original instance contains samples whose prices sum to more than 1,
+  //   (2) no ball of the original instance contains listed samples of two groups, (3) each is in one,
   // then a cover needs at least ceil(sum of prices) balls for each group, and no ball serves two groups:
   // every cover has at least certified_bound() balls. Samples that are not listed are free.
   Array<std::int32_t> certificate_samples;  // l samples, ascending within a group, none twice
