@@ -18,6 +18,8 @@ BEGIN, END = "<!-- floors: begin -->", "<!-- floors: end -->"
 AREAS = {"engine": ROOT / "engine" / "src", "nodes": ROOT / "nodes", "tools": ROOT / "tools" / "ballflow"}
 PUBLIC = ROOT / "engine" / "include" / "ballflow"
 MOST_LINES = 450
+# Besides *.node.cpp and *.type.cpp: what connects a family of nodes with the engine.
+SEES_SDK = ("plugin.cpp", "artifact_types.hpp", "box_summary.hpp", "type_of.hpp")
 
 
 def read_table():
@@ -57,13 +59,18 @@ def sources():
         for path in sorted(folder.rglob("*")):
             if path.suffix in (".cpp", ".hpp", ".h") and "node_modules" not in path.parts:
                 yield area, path
-    for path in sorted(PUBLIC.glob("*")):
+    for path in sorted(PUBLIC.rglob("*.h*")):
         yield "engine", path
 
 
+def floor_of_header(parts, headers):
+    """Of ballflow/<parts>: by its name, or by its folder, which the table names with a slash."""
+    return headers.get(parts[0] if len(parts) == 1 else parts[0] + "/")
+
+
 def floor_of_path(area, path, sees, headers):
-    if path.parent == PUBLIC:
-        return headers.get(path.name)
+    if PUBLIC in path.parents:
+        return floor_of_header(path.relative_to(PUBLIC).parts, headers)
     parts = path.relative_to(AREAS[area]).parts[:-1]
     for length in range(len(parts), 0, -1):
         floor = "/".join((area, *parts[:length]))
@@ -76,7 +83,7 @@ def floor_of_include(area, name, sees, headers):
     """None for what is not the project's."""
     parts = name.split("/")
     if parts[0] == "ballflow":
-        return headers.get(parts[1], "no floor")
+        return floor_of_header(parts[1:], headers) or "no floor"
     for where in (area, "nodes"):
         for length in range(len(parts) - 1, 0, -1):
             floor = "/".join((where, *parts[:length]))
@@ -87,7 +94,7 @@ def floor_of_include(area, name, sees, headers):
 
 def is_adapter(path):
     """What connects a family with the engine sees the SDK too."""
-    return path.name.endswith((".node.cpp", ".type.cpp")) or path.name in ("plugin.cpp", "artifact_types.hpp")
+    return path.name.endswith((".node.cpp", ".type.cpp")) or path.name in SEES_SDK
 
 
 def findings(sees, headers, below):

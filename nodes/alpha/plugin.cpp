@@ -1,7 +1,5 @@
 // The family "alpha": the dual complex of a union of balls.
-#include <ballflow/sdk.hpp>
-
-#include "types/power_diagram_type.hpp"
+#include <ballflow/sdk/library.hpp>
 
 namespace ballflow::nodes {
 const bf_node* alpha_shape_entry();
@@ -13,5 +11,4 @@ BALLFLOW_PLUGIN("alpha", "0.1.0",
                     ballflow::nodes::alpha_shape_entry(),
                     ballflow::nodes::power_diagram_entry(),
                 }),
-                (ballflow::type_entries<ballflow::geometry::Balls, ballflow::geometry::SimplicialComplex,
-                                        ballflow::geometry::PowerDiagram>()))
+                ballflow::type_entries<>())

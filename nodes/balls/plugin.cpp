@@ -1,7 +1,5 @@
 // The family "balls": from balls to balls.
-#include <ballflow/sdk.hpp>
-
-#include "types/artifact_types.hpp"
+#include <ballflow/sdk/library.hpp>
 
 namespace ballflow::nodes {
 const bf_node* enlarge_entry();
@@ -13,6 +11,4 @@ BALLFLOW_PLUGIN("balls", "0.1.0",
                     ballflow::nodes::enlarge_entry(),
                     ballflow::nodes::select_balls_entry(),
                 }),
-                (ballflow::type_entries<ballflow::geometry::Balls, ballflow::geometry::PointSet,
-                                        ballflow::geometry::PoleSet, ballflow::geometry::Growth,
-                                        ballflow::geometry::Bisection, ballflow::geometry::CoverState>()))
+                ballflow::type_entries<>())

@@ -1,7 +1,5 @@
 // The family "minkowski": sums of unions of balls.
-#include <ballflow/sdk.hpp>
-
-#include "types/artifact_types.hpp"
+#include <ballflow/sdk/library.hpp>
 
 namespace ballflow::nodes {
 const bf_node* minkowski_sum_entry();
@@ -11,5 +9,4 @@ BALLFLOW_PLUGIN("minkowski", "0.1.0",
                 (std::vector<const bf_node*>{
                     ballflow::nodes::minkowski_sum_entry(),
                 }),
-                (ballflow::type_entries<ballflow::geometry::Balls, ballflow::geometry::Comparison,
-                                        ballflow::geometry::MinkowskiReport>()))
+                ballflow::type_entries<>())

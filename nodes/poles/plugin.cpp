@@ -1,6 +1,5 @@
-#include <ballflow/sdk.hpp>
-
-#include "types/artifact_types.hpp"
+// The family "poles": polar balls of samples.
+#include <ballflow/sdk/library.hpp>
 
 namespace ballflow::nodes {
 const bf_node* voronoi_poles_entry();
@@ -9,9 +8,9 @@ const bf_node* local_feature_size_entry();
 }  // namespace ballflow::nodes
 
 BALLFLOW_PLUGIN("poles", "0.1.0",
-                (std::vector<const bf_node*>{ballflow::nodes::voronoi_poles_entry(),
-                                             ballflow::nodes::label_poles_entry(),
-                                             ballflow::nodes::local_feature_size_entry()}),
-                (ballflow::type_entries<ballflow::geometry::PointSet, ballflow::geometry::TriangleMesh,
-                                        ballflow::geometry::PoleSet, ballflow::geometry::Balls,
-                                        ballflow::geometry::LocalFeatureSize>()))
+                (std::vector<const bf_node*>{
+                    ballflow::nodes::voronoi_poles_entry(),
+                    ballflow::nodes::label_poles_entry(),
+                    ballflow::nodes::local_feature_size_entry(),
+                }),
+                ballflow::type_entries<>())

@@ -1,6 +1,5 @@
-#include <ballflow/sdk.hpp>
-
-#include "types/artifact_types.hpp"
+// The family "sample": models, samples and balls from files and formulas.
+#include <ballflow/sdk/library.hpp>
 
 namespace ballflow::nodes {
 const bf_node* load_balls_entry();
@@ -9,8 +8,9 @@ const bf_node* shape_entry();
 }  // namespace ballflow::nodes
 
 BALLFLOW_PLUGIN("sample", "0.1.0",
-                (std::vector<const bf_node*>{ballflow::nodes::load_balls_entry(),
-                                             ballflow::nodes::sample_entry(),
-                                             ballflow::nodes::shape_entry()}),
-                (ballflow::type_entries<ballflow::geometry::PointSet, ballflow::geometry::TriangleMesh,
-                                        ballflow::geometry::Balls, ballflow::geometry::MedialAxis>()))
+                (std::vector<const bf_node*>{
+                    ballflow::nodes::load_balls_entry(),
+                    ballflow::nodes::sample_entry(),
+                    ballflow::nodes::shape_entry(),
+                }),
+                ballflow::type_entries<>())

@@ -1,7 +1,5 @@
 // The family "topology": components, tunnels and cavities, from the surface to the medial axis.
-#include <ballflow/sdk.hpp>
-
-#include "types/power_diagram_type.hpp"
+#include <ballflow/sdk/library.hpp>
 
 namespace ballflow::nodes {
 const bf_node* solid_topology_entry();
@@ -17,7 +15,4 @@ BALLFLOW_PLUGIN("topology", "0.1.0",
                     ballflow::nodes::topology_repair_entry(),
                     ballflow::nodes::union_topology_entry(),
                 }),
-                (ballflow::type_entries<ballflow::geometry::Balls, ballflow::geometry::SimplicialComplex,
-                                        ballflow::geometry::MedialAxis, ballflow::geometry::TriangleMesh,
-                                        ballflow::geometry::TopologyTable, ballflow::geometry::TopologyCheck,
-                                        ballflow::geometry::CoverState, ballflow::geometry::PowerDiagram>()))
+                ballflow::type_entries<>())

@@ -1,5 +1,6 @@
-// The plain structs of nodes/types as types of artifacts. The names and meanings of their arrays and summary
-// fields stand in artifact_types.cpp; they are part of the interface of the project and stable.
+// What an adapter needs: the SDK, the plain structs of nodes/types as types of artifacts, and the monitor of
+// a node that runs. The names and meanings of their arrays and summary fields stand in <type>.type.cpp; they
+// are part of the interface of the project and stable.
 #pragma once
 
 #include <atomic>
@@ -23,6 +24,7 @@
 #include "types/topology_check.hpp"
 #include "types/topology_table.hpp"
 #include "types/triangle_mesh.hpp"
+#include "types/type_of.hpp"
 
 namespace ballflow {
 
@@ -45,86 +47,6 @@ class ContextMonitor final : public geometry::Monitor {
   // Quick nodes say nothing: the first pause begins with the node.
   std::atomic<std::chrono::steady_clock::rep> last_note_ =
       std::chrono::steady_clock::now().time_since_epoch().count();
-};
-
-template <>
-struct TypeOf<geometry::PointSet> {
-  static void declare(TypeDecl<geometry::PointSet>& d);
-};
-
-template <>
-struct TypeOf<geometry::TriangleMesh> {
-  static void declare(TypeDecl<geometry::TriangleMesh>& d);
-};
-
-template <>
-struct TypeOf<geometry::PoleSet> {
-  static void declare(TypeDecl<geometry::PoleSet>& d);
-};
-
-template <>
-struct TypeOf<geometry::Balls> {
-  static void declare(TypeDecl<geometry::Balls>& d);
-};
-
-template <>
-struct TypeOf<geometry::Growth> {
-  static void declare(TypeDecl<geometry::Growth>& d);
-};
-
-template <>
-struct TypeOf<geometry::LocalFeatureSize> {
-  static void declare(TypeDecl<geometry::LocalFeatureSize>& d);
-};
-
-template <>
-struct TypeOf<geometry::CoverState> {
-  static void declare(TypeDecl<geometry::CoverState>& d);
-};
-
-template <>
-struct TypeOf<geometry::Bisection> {
-  static void declare(TypeDecl<geometry::Bisection>& d);
-};
-
-template <>
-struct TypeOf<geometry::CoverCheck> {
-  static void declare(TypeDecl<geometry::CoverCheck>& d);
-};
-
-template <>
-struct TypeOf<geometry::Comparison> {
-  static void declare(TypeDecl<geometry::Comparison>& d);
-};
-
-template <>
-struct TypeOf<geometry::MassProperties> {
-  static void declare(TypeDecl<geometry::MassProperties>& d);
-};
-
-template <>
-struct TypeOf<geometry::MinkowskiReport> {
-  static void declare(TypeDecl<geometry::MinkowskiReport>& d);
-};
-
-template <>
-struct TypeOf<geometry::SimplicialComplex> {
-  static void declare(TypeDecl<geometry::SimplicialComplex>& d);
-};
-
-template <>
-struct TypeOf<geometry::TopologyCheck> {
-  static void declare(TypeDecl<geometry::TopologyCheck>& d);
-};
-
-template <>
-struct TypeOf<geometry::TopologyTable> {
-  static void declare(TypeDecl<geometry::TopologyTable>& d);
-};
-
-template <>
-struct TypeOf<geometry::MedialAxis> {
-  static void declare(TypeDecl<geometry::MedialAxis>& d);
 };
 
 }  // namespace ballflow

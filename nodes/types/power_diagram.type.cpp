@@ -42,13 +42,13 @@ void TypeOf<geometry::PowerDiagram>::declare(TypeDecl<geometry::PowerDiagram>& d
       infinite += finite ? 0 : 1;
       inside += (v.in_complex[c] & T::whole) != 0 ? 1 : 0;
     }
-    return Json{{"balls", v.centers.size()},
-                {"hidden", std::count(seen.begin(), seen.end(), false)},
-                {"dimension", v.dimension},
-                {"cells", static_cast<std::int64_t>(v.size()) - infinite},
-                {"infinite_cells", infinite},
-                {"cells_in_complex", inside},
-                {"delta", v.delta}};
+    return Summary{{"balls", v.centers.size()},
+                   {"hidden", std::count(seen.begin(), seen.end(), false)},
+                   {"dimension", v.dimension},
+                   {"cells", static_cast<std::int64_t>(v.size()) - infinite},
+                   {"infinite_cells", infinite},
+                   {"cells_in_complex", inside},
+                   {"delta", v.delta}};
   });
   d.check([](const T& v) { return geometry::broken_invariant(v); });
 }

@@ -16,6 +16,7 @@
 #include <mutex>
 #include <set>
 
+#include "ballflow/artifact_view.hpp"
 #include "ballflow/graph.hpp"
 #include "ballflow/registry.hpp"
 #include "test_data.hpp"
@@ -40,29 +41,23 @@ class Execution {
     Json params = Json::object();
     for (const ParamDecl& param : node.kind.params()) params[param.name] = node.params.at(param.name);
     const std::string text = params.dump();
-    for (const auto& [port, artifact] : inputs_) {
-      for (const NamedArray& array : artifact->arrays()) {
-        bf_array view{};
-        view.name = {array.name.data(), array.name.size()};
-        view.dtype = array.dtype;
-        view.rank = static_cast<std::uint32_t>(array.shape.size());
-        std::copy(array.shape.begin(), array.shape.end(), view.shape);
-        view.data = array.data;
-        views_[port].push_back(view);
-      }
-    }
+    for (const auto& [port, artifact] : inputs_) views_.emplace(port, artifact);
     bf_run run{};
     run.struct_size = sizeof run;
     run.max_threads = 2;
     run.params = {text.data(), text.size()};
-    run.self = this;
+    run.node = {node.kind.type().data(), node.kind.type().size()};
+    run.host = this;
     run.cancelled = [](void* self) -> int { return of(self).look() ? 1 : 0; };
     run.progress = [](void*, double) {};
     run.log = [](void*, std::uint32_t, bf_bytes) {};
-    run.input = [](void* self, bf_bytes port, bf_artifact* artifact) -> int {
+    run.input_count = [](void* self, bf_bytes port) -> std::uint64_t {
+      return of(self).views_.count(std::string(port.data, port.size));
+    };
+    run.input = [](void* self, bf_bytes port, std::uint64_t, bf_artifact* artifact) -> int {
       const auto found = of(self).views_.find(std::string(port.data, port.size));
       if (found == of(self).views_.end()) return 0;
-      *artifact = {found->second.data(), found->second.size(), nullptr, [](void*) {}, [](void*) {}};
+      *artifact = found->second.raw();
       return 1;
     };
     run.output = [](void* self, bf_bytes port, const bf_array* arrays, std::uint64_t count,
@@ -71,8 +66,9 @@ class Execution {
       return 0;
     };
     run.fail = [](void* self, bf_bytes why, bf_bytes) { of(self).cause.assign(why.data, why.size); };
+    const bf_node& entry = *node.kind.declared()->entry;
     last_ = cpu_seconds();
-    status = node.kind.declared()->entry->run(&run);
+    status = entry.run(entry.self, &run);
     const double end = cpu_seconds();
     since_last_look(end);
     if (cancelled_at_ >= 0) latency = end - cancelled_at_;
@@ -131,7 +127,7 @@ class Execution {
   const DagNode& node_;
   const Artifacts inputs_;
   const std::int64_t cancel_at_;
-  std::map<std::string, std::vector<bf_array>> views_;
+  std::map<std::string, ArtifactView> views_;
   std::mutex mutex_;
   double last_ = 0, cancelled_at_ = -1;
 };

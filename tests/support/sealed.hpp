@@ -20,14 +20,13 @@ inline ArtifactPtr sealed(const T& value) {
   for (const bf_array& a : out.arrays()) {
     arrays.push_back({std::string(detail::view(a.name)), a.dtype, {a.shape, a.shape + a.rank}, a.data});
   }
-  const Json& declaration = type_decl<T>().json();
   const std::shared_ptr<const void> keeper(new detail::OutArrays(out), [](const void* kept) {
     const auto* released = static_cast<const detail::OutArrays*>(kept);
     for (const bf_array& a : released->arrays()) a.release(a.owner);
     delete released;
   });
-  return Artifact::seal(declaration["id"].get<std::string>(), declaration["version"].get<int>(),
-                        std::move(arrays), type_decl<T>().summary_of(value).dump(), keeper);
+  return Artifact::seal(type_decl<T>().type_id(), type_decl<T>().type_version(), std::move(arrays),
+                        type_decl<T>().summary_of(value).text(), keeper);
 }
 
 }  // namespace ballflow::test

@@ -41,6 +41,7 @@ struct PortDecl {
   std::string name, type, doc;
   int type_version = 0;
   bool optional = false;
+  bool list = false;  // inputs only: takes several artifacts, in the order of the graph
 
   friend bool operator==(const PortDecl&, const PortDecl&) = default;
 };

@@ -56,8 +56,11 @@ class Registry {
 /// else the reason why it does not.
 std::string refuse_plugin_file(const std::string& path);
 
-/// Compares arrays with the declaration of their type (presence, dtype, rank, lengths) and runs the type's
-/// own check. Returns an empty string when all is well, else what is wrong.
+/// Compares type, version and arrays (presence, dtype, rank, lengths) with the declaration. Returns an empty
+/// string when all is well, else what is wrong.
+std::string check_arrays(const TypeDeclaration& type, const Artifact& artifact);
+
+/// The same, and runs the type's own check.
 std::string check_artifact(const TypeDeclaration& type, const Artifact& artifact);
 
 }  // namespace ballflow

@@ -1,5 +1,6 @@
 #include <map>
 
+#include "ballflow/artifact_view.hpp"
 #include "ballflow/registry.hpp"
 #include "base/quote.hpp"
 
@@ -67,7 +68,7 @@ std::string check_array(const ArrayDecl& decl, const NamedArray& array,
 
 }  // namespace
 
-std::string check_artifact(const TypeDeclaration& type, const Artifact& artifact) {
+std::string check_arrays(const TypeDeclaration& type, const Artifact& artifact) {
   if (artifact.type() != type.id || artifact.version() != type.version) {
     return "is a " + in_quotes(artifact.type()) + " version " + std::to_string(artifact.version()) +
            ", must be a " + in_quotes(type.id) + " version " + std::to_string(type.version);
@@ -88,28 +89,23 @@ std::string check_artifact(const TypeDeclaration& type, const Artifact& artifact
       return "has an array " + in_quotes(array.name) + " that type " + in_quotes(type.id) +
              " does not declare";
   }
-  if (type.entry == nullptr || type.entry->check == nullptr) return {};
+  return {};
+}
 
+std::string check_artifact(const TypeDeclaration& type, const Artifact& artifact) {
+  if (std::string wrong = check_arrays(type, artifact); !wrong.empty()) return wrong;
+  if (type.entry == nullptr || type.entry->check == nullptr) return {};
   // The type's own check reads the arrays through the plugin boundary; the artifact outlives the call.
-  std::vector<bf_array> arrays;
-  for (const NamedArray& array : artifact.arrays()) {
-    bf_array raw{};
-    raw.name = {array.name.data(), array.name.size()};
-    raw.dtype = array.dtype;
-    raw.rank = static_cast<std::uint32_t>(array.shape.size());
-    for (std::size_t i = 0; i < array.shape.size(); ++i) raw.shape[i] = array.shape[i];
-    raw.data = array.data;
-    arrays.push_back(raw);
-  }
-  bf_artifact raw{};
-  raw.arrays = arrays.data();
-  raw.array_count = arrays.size();
-  raw.retain = [](void*) {};
-  raw.release = [](void*) {};
+  const ArtifactView view(artifact);
   std::string broken;
-  type.entry->check(&raw, &broken, [](void* context, bf_bytes text) {
+  type.entry->check(type.entry->self, &view.raw(), &broken, [](void* context, bf_bytes text) noexcept {
     auto& first = *static_cast<std::string*>(context);
-    if (first.empty()) first = printable({text.data, static_cast<std::size_t>(text.size)});
+    if (!first.empty()) return;
+    try {
+      first = printable({text.data, static_cast<std::size_t>(text.size)});
+    } catch (...) {
+      first = "is broken";  // short enough to need no memory
+    }
   });
   return broken;
 }

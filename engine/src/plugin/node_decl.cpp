@@ -122,6 +122,7 @@ PortDecl parse_port(const Json& json, const std::string& where) {
   port.type_version = fields.version("type_version");
   port.doc = fields.text("doc");
   port.optional = fields.boolean("optional", false);
+  port.list = fields.boolean("list", false);
   fields.refuse_unknown();
   return port;
 }
@@ -256,6 +257,8 @@ NodeDeclaration parse_node_declaration(std::string_view text) {
   refuse_twice(fields, node.outputs, "outputs");
   refuse_twice(fields, node.params, "parameters");
   for (const PortDecl& port : node.outputs) {
+    if (port.list)
+      fields.fail("has an output " + in_quotes(port.name) + " that is a list; only inputs may be lists");
     if (port.optional)
       fields.fail("has an optional output " + in_quotes(port.name) + "; only inputs may be optional");
   }

@@ -31,7 +31,7 @@ std::string_view view(bf_bytes text) {
 /// Reads the tables of a loaded library; throws Error that says what is wrong with them.
 PluginTables read_tables(const bf_plugin& plugin, const std::string& path) {
   constexpr std::uint64_t most_entries = 100'000;
-  if (plugin.struct_size < sizeof(bf_plugin)) refuse("hands over a plugin table that is too small");
+  if (plugin.struct_size < BF_PLUGIN_MIN_SIZE) refuse("hands over a plugin table that is too small");
   if (plugin.abi_version != BALLFLOW_ABI_VERSION) {
     refuse("says plugin ABI " + std::to_string(plugin.abi_version) + ", this program has plugin ABI " +
            std::to_string(BALLFLOW_ABI_VERSION));
@@ -47,7 +47,7 @@ PluginTables read_tables(const bf_plugin& plugin, const std::string& path) {
   tables.version = printable(view(plugin.version));
   for (std::uint64_t i = 0; i < plugin.type_count; ++i) {
     const bf_type* entry = plugin.types[i];
-    if (entry == nullptr || entry->struct_size < sizeof(bf_type))
+    if (entry == nullptr || entry->struct_size < BF_TYPE_MIN_SIZE)
       refuse("type " + std::to_string(i) + " is null or too small");
     TypeDeclaration type = parse_type_declaration(view(entry->declaration));
     type.plugin_path = path;
@@ -56,7 +56,7 @@ PluginTables read_tables(const bf_plugin& plugin, const std::string& path) {
   }
   for (std::uint64_t i = 0; i < plugin.node_count; ++i) {
     const bf_node* entry = plugin.nodes[i];
-    if (entry == nullptr || entry->struct_size < sizeof(bf_node))
+    if (entry == nullptr || entry->struct_size < BF_NODE_MIN_SIZE)
       refuse("node " + std::to_string(i) + " is null or too small");
     NodeDeclaration node = parse_node_declaration(view(entry->declaration));
     if (entry->run == nullptr) refuse("node " + in_quotes(node.id) + " has no run function");

@@ -1,43 +1,19 @@
 #include "run/node_run.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <cstring>
 #include <exception>
 #include <memory>
 #include <mutex>
 
+#include "ballflow/artifact_view.hpp"
 #include "ballflow/error.hpp"
 #include "ballflow/plugin.h"
 #include "base/canonical_json.hpp"
 
 namespace ballflow {
 namespace {
-
-/// An artifact as the boundary shows it; lives until the last reader lets go.
-struct InputView {
-  ArtifactPtr artifact;
-  std::vector<bf_array> arrays;
-  std::atomic<int> references{1};
-
-  explicit InputView(ArtifactPtr a) : artifact(std::move(a)) {
-    for (const NamedArray& array : artifact->arrays()) {
-      bf_array view{};
-      view.name = {array.name.data(), array.name.size()};
-      view.dtype = array.dtype;
-      view.rank = static_cast<std::uint32_t>(array.shape.size());
-      for (std::size_t i = 0; i < array.shape.size() && i < BALLFLOW_MAX_RANK; ++i)
-        view.shape[i] = array.shape[i];
-      view.data = array.data;
-      arrays.push_back(view);
-    }
-  }
-  static void retain(void* self) {
-    static_cast<InputView*>(self)->references.fetch_add(1, std::memory_order_relaxed);
-  }
-  static void release(void* self) {
-    auto* view = static_cast<InputView*>(self);
-    if (view->references.fetch_sub(1, std::memory_order_acq_rel) == 1) delete view;
-  }
-};
 
 /// Releases the arrays that a node handed over.
 struct HandedOver {
@@ -52,7 +28,19 @@ struct HandedOver {
 class Host {
  public:
   explicit Host(const ExecutionRequest& request) : request_(request) {
-    for (const auto& [port, artifact] : request.inputs) views_[port] = new InputView(artifact);
+    for (const PortDecl& port : request.node->kind.inputs()) {
+      std::vector<ArtifactView>& views = views_[port.name];
+      const auto take = [&](const std::string& slot) {
+        const auto found = request.inputs.find(slot);
+        if (found != request.inputs.end()) views.emplace_back(found->second);
+        return found != request.inputs.end();
+      };
+      if (port.list) {
+        for (std::size_t i = 0; take(list_slot(port.name, i));) ++i;
+      } else {
+        take(port.name);
+      }
+    }
     for (const auto& [name, value] : request.node->params) {
       params_ += params_.empty() ? '{' : ',';
       write_string(name, params_);
@@ -60,9 +48,6 @@ class Host {
       write_value(value, params_);
     }
     params_ += params_.empty() ? "{}" : "}";
-  }
-  ~Host() {
-    for (const auto& [port, view] : views_) InputView::release(view);
   }
   Host(const Host&) = delete;
   Host& operator=(const Host&) = delete;
@@ -72,18 +57,40 @@ class Host {
     run.struct_size = sizeof run;
     run.max_threads = request_.threads;
     run.seed = request_.seed;
+    const std::string& id = request_.node->kind.type();
+    run.node = {id.data(), id.size()};
     run.params = {params_.data(), params_.size()};
-    run.self = this;
-    run.cancelled = [](void* self) -> int { return host(self).request_.cancelled() ? 1 : 0; };
-    run.progress = [](void* self, double fraction) { host(self).request_.progress(fraction); };
-    run.log = [](void* self, std::uint32_t level, bf_bytes text) { host(self).log(level, text); };
-    run.input = [](void* self, bf_bytes port, bf_artifact* artifact) -> int {
-      return host(self).input(port, artifact);
+    run.host = this;
+    run.cancelled = [](void* self) noexcept -> int { return host(self).cancelled() ? 1 : 0; };
+    run.progress = [](void* self, double fraction) noexcept {
+      host(self).guarded([&] { host(self).request_.progress(fraction); });
+    };
+    run.log = [](void* self, std::uint32_t level, bf_bytes text) noexcept {
+      host(self).guarded([&] { host(self).log(level, text); });
+    };
+    run.input_count = [](void* self, bf_bytes port) noexcept -> std::uint64_t {
+      const auto& views = host(self).views_;
+      const auto found = views.find(view(port));
+      return found == views.end() ? 0 : found->second.size();
+    };
+    run.input = [](void* self, bf_bytes port, std::uint64_t index, bf_artifact* artifact) noexcept -> int {
+      return host(self).input(port, index, artifact);
     };
     run.output = [](void* self, bf_bytes port, const bf_array* arrays, std::uint64_t count,
-                    bf_bytes summary) -> int { return host(self).output(port, arrays, count, summary); };
-    run.fail = [](void* self, bf_bytes cause, bf_bytes hint) { host(self).fail(text(cause), text(hint)); };
+                    bf_bytes summary) noexcept -> int {
+      int refused = 1;
+      host(self).guarded([&] { refused = host(self).output(port, arrays, count, summary); });
+      return refused;
+    };
+    run.fail = [](void* self, bf_bytes cause, bf_bytes hint) noexcept {
+      host(self).guarded([&] { host(self).fail(text(cause), text(hint)); });
+    };
     return run;
+  }
+
+  /// What a function of the host threw instead of throwing it through the node.
+  void rethrow() const {
+    if (thrown_) std::rethrow_exception(thrown_);
   }
 
   ExecutionOutcome outcome;
@@ -97,7 +104,8 @@ class Host {
 
  private:
   static Host& host(void* self) { return *static_cast<Host*>(self); }
-  static std::string text(bf_bytes bytes) { return {bytes.data, static_cast<std::size_t>(bytes.size)}; }
+  static std::string_view view(bf_bytes bytes) { return {bytes.data, static_cast<std::size_t>(bytes.size)}; }
+  static std::string text(bf_bytes bytes) { return std::string(view(bytes)); }
 
   void log(std::uint32_t level, bf_bytes message) {
     const std::string line = text(message);
@@ -108,18 +116,49 @@ class Host {
     request_.message(level == BF_WARNING, line);
   }
 
-  int input(bf_bytes port, bf_artifact* artifact) {
-    const auto found = views_.find(text(port));
-    if (found == views_.end()) return 0;
-    InputView* view = found->second;
-    *artifact = {view->arrays.data(), view->arrays.size(), view, &InputView::retain, &InputView::release};
+  template <class Work>
+  void guarded(Work&& work) noexcept {
+    try {
+      work();
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!thrown_) thrown_ = std::current_exception();
+      has_thrown_ = true;
+    }
+  }
+
+  bool cancelled() noexcept {
+    bool stop = false;
+    guarded([&] { stop = request_.cancelled(); });
+    return stop || has_thrown_;
+  }
+
+  int input(bf_bytes port, std::uint64_t index, bf_artifact* artifact) noexcept {
+    const auto found = views_.find(view(port));
+    if (found == views_.end() || index >= found->second.size() ||
+        artifact->struct_size < BF_ARTIFACT_MIN_SIZE)
+      return 0;
+    const std::uint32_t size = std::min<std::uint32_t>(artifact->struct_size, sizeof(bf_artifact));
+    std::memcpy(artifact, &found->second[index].raw(), size);
+    artifact->struct_size = size;
     return 1;
   }
 
   int output(bf_bytes port_name, const bf_array* arrays, std::uint64_t count, bf_bytes summary) {
     const std::string port = text(port_name);
     auto owner = std::make_shared<HandedOver>();
-    owner->arrays.assign(arrays, arrays + count);
+    if (count > 0 && arrays->struct_size < BF_ARRAY_MIN_SIZE) {
+      fail("output \"" + port + "\" was handed over in structs that are too small",
+           "this is a bug of the node; please report it");
+      return 1;
+    }
+    owner->arrays.reserve(count);
+    for (std::uint64_t i = 0; i < count; ++i) {
+      bf_array array{};
+      std::memcpy(&array, reinterpret_cast<const char*>(arrays) + i * arrays->struct_size,
+                  std::min<std::size_t>(arrays->struct_size, sizeof array));
+      owner->arrays.push_back(array);
+    }
     try {
       const PortDecl* decl = request_.node->kind.output(port);
       if (decl == nullptr)
@@ -153,17 +192,42 @@ class Host {
   }
 
   const ExecutionRequest& request_;
-  std::map<std::string, InputView*> views_;
+  std::map<std::string, std::vector<ArtifactView>, std::less<>> views_;  // by input port, in order
   std::string params_;
   std::mutex mutex_;
+  std::exception_ptr thrown_;
+  std::atomic<bool> has_thrown_ = false;
 };
+
+/// What a node gets is as its type says, wherever it comes from: a node trusts the declaration and would read
+/// beyond the end of an array that is too short. Empty when all is well.
+std::string wrong_input(const ExecutionRequest& request) {
+  for (const auto& [port, artifact] : request.inputs) {
+    const PortDecl* decl = find_input(request.node->kind.inputs(), port);
+    const TypeDeclaration* type = decl == nullptr ? nullptr : request.registry->type(decl->type);
+    if (type == nullptr) continue;
+    const std::string wrong = check_arrays(*type, *artifact);
+    if (!wrong.empty()) return "input \"" + port + "\" " + wrong;
+  }
+  return {};
+}
 
 }  // namespace
 
 ExecutionOutcome execute_node(const ExecutionRequest& request) {
+  if (std::string wrong = wrong_input(request); !wrong.empty()) {
+    ExecutionOutcome refused;
+    refused.cause = std::move(wrong);
+    refused.hint =
+        "it comes from a cache or file of another version of the library that declares its type: compute it "
+        "again";
+    return refused;
+  }
   Host host(request);
   const bf_run table = host.table();
-  const int status = request.node->kind.declared()->entry->run(&table);
+  const bf_node& entry = *request.node->kind.declared()->entry;
+  const int status = entry.run(entry.self, &table);
+  host.rethrow();
   ExecutionOutcome outcome = std::move(host.outcome);
 
   // An output that the engine refused reaches the node as a cancellation; the recorded cause decides.

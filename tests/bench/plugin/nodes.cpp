@@ -39,7 +39,7 @@ struct ballflow::TypeOf<Numbers> {
     d.array("values", &Numbers::values).doc("any");
     d.summary("first", "the first number");
     d.summarize([](const Numbers& v) {
-      return Json{{"first", v.values.size() == 0 ? 0.0 : v.values.data()[0]}};
+      return Summary{{"first", v.values.size() == 0 ? 0.0 : v.values.data()[0]}};
     });
   }
 };

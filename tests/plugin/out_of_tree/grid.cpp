@@ -21,7 +21,7 @@ struct ballflow::TypeOf<acme::Grid> {
     d.scalar("size", &acme::Grid::size).doc("columns and rows");
     d.array("values", &acme::Grid::values).length("n").doc("columns times rows numbers, row by row");
     d.summary("cells", "how many numbers");
-    d.summarize([](const acme::Grid& grid) { return Json{{"cells", grid.values.size()}}; });
+    d.summarize([](const acme::Grid& grid) { return Summary{{"cells", grid.values.size()}}; });
     d.check([](const acme::Grid& grid) {
       const std::int64_t cells = grid.size[0] * grid.size[1];
       if (static_cast<std::int64_t>(grid.values.size()) == cells) return std::string();

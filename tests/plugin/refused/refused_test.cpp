@@ -60,7 +60,11 @@ TEST_F(plugin, loads_with_its_nodes_and_types) {
 TEST_F(plugin, of_another_abi_is_refused_before_its_code_runs) {
   copy("wrong_abi");
   EXPECT_EQ(reason("wrong_abi"),
-            "is built for plugin ABI 2, this program has plugin ABI 1: rebuild it against the headers of "
+            "is built for plugin ABI 3, this program has plugin ABI 2: rebuild it against the headers of "
+            "this version");
+  copy("old_abi");
+  EXPECT_EQ(reason("old_abi"),
+            "is built for plugin ABI 1, this program has plugin ABI 2: rebuild it against the headers of "
             "this version");
 }
 

@@ -1,10 +1,8 @@
 // From an artifact back to the struct of nodes/types that it was made from.
 #pragma once
 
-#include <algorithm>
-#include <vector>
-
 #include "ballflow/artifact.hpp"
+#include "ballflow/artifact_view.hpp"
 #include "ballflow/error.hpp"
 #include "ballflow/node_decl.hpp"
 #include "ballflow/registry.hpp"
@@ -17,29 +15,14 @@ namespace ballflow {
 template <class T>
 T typed(const Artifact& artifact) {
   static const TypeDeclaration declaration = [] {
-    TypeDeclaration parsed = parse_type_declaration(type_decl<T>().json().dump());
+    TypeDeclaration parsed = parse_type_declaration(type_decl<T>().json());
     parsed.entry = type_entries<T>().front();
     return parsed;
   }();
   if (const std::string broken = check_artifact(declaration, artifact); !broken.empty()) {
     throw Error(ExitCode::store, "the artifact " + broken, "compute it again with this version of ballflow");
   }
-  std::vector<bf_array> arrays;
-  for (const NamedArray& array : artifact.arrays()) {
-    bf_array raw{};
-    raw.name = detail::bytes(array.name);
-    raw.dtype = array.dtype;
-    raw.rank = static_cast<std::uint32_t>(array.shape.size());
-    std::copy(array.shape.begin(), array.shape.end(), raw.shape);
-    raw.data = array.data;
-    arrays.push_back(raw);
-  }
-  bf_artifact raw{};
-  raw.arrays = arrays.data();
-  raw.array_count = arrays.size();
-  raw.retain = [](void*) {};
-  raw.release = [](void*) {};
-  return type_decl<T>().read(raw);
+  return type_decl<T>().read(ArtifactView(artifact).raw());
 }
 
 }  // namespace ballflow

@@ -214,7 +214,8 @@ TEST(artifact_check, runs_the_check_of_the_type) {
       sizeof(bf_type),
       0,
       {nullptr, 0},
-      [](const bf_artifact* artifact, void* context, void (*found)(void*, bf_bytes)) {
+      nullptr,
+      [](void*, const bf_artifact* artifact, void* context, void (*found)(void*, bf_bytes)) {
         const std::string text = "saw " + std::to_string(artifact->array_count) + " arrays, length " +
                                  std::to_string(artifact->arrays[0].shape[0]);
         found(context, {text.data(), text.size()});

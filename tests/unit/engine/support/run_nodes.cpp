@@ -50,8 +50,8 @@ struct ballflow::TypeOf<toy::Numbers> {
     d.array("values", &toy::Numbers::values).length("n").doc("the numbers");
     d.summary("count", "how many").summary("first", "the first number, null when there is none");
     d.summarize([](const toy::Numbers& v) {
-      return Json{{"count", v.values.size()},
-                  {"first", v.values.size() == 0 ? Json(nullptr) : Json(v.values.data()[0])}};
+      return Summary{{"count", v.values.size()},
+                     {"first", v.values.size() == 0 ? SummaryValue() : SummaryValue(v.values.data()[0])}};
     });
     d.check([](const toy::Numbers& v) {
       for (std::size_t i = 0; i < v.values.size(); ++i) {
@@ -290,14 +290,14 @@ struct Babble {
 };
 
 const bf_plugin& plugin() {
-  static const std::vector<const bf_node*> nodes =
-      node_entries<Source, Add, Round, Slow, Fail, Step, Noisy, Threads, Busy, Negative, Heavy, FromFile,
-                   Babble>();
-  static const std::vector<const bf_type*> types = type_entries<Numbers>();
-  static const bf_plugin plugin = {sizeof(bf_plugin),  BALLFLOW_ABI_VERSION, detail::bytes("toy"),
-                                   detail::bytes("1"), types.data(),         types.size(),
-                                   nodes.data(),       nodes.size()};
-  return plugin;
+  static const bf_plugin* const plugin = detail::keep_plugin(
+      "toy", "1",
+      [] {
+        return node_entries<Source, Add, Round, Slow, Fail, Step, Noisy, Threads, Busy, Negative, Heavy,
+                            FromFile, Babble>();
+      },
+      [] { return type_entries<Numbers>(); });
+  return *plugin;
 }
 
 }  // namespace toy

@@ -1,0 +1,50 @@
+#include "types/minkowski_report.hpp"
+
+#include <string>
+
+#include "types/box_summary.hpp"
+#include "types/type_of.hpp"
+
+namespace ballflow {
+
+void TypeOf<geometry::MinkowskiReport>::declare(TypeDecl<geometry::MinkowskiReport>& d) {
+  using T = geometry::MinkowskiReport;
+  d.id("MinkowskiReport", 2).doc("What the Minkowski sum of two sets of balls came to.");
+  d.scalar("pairs", &T::pairs).doc("pairs of balls");
+  d.scalar("survivors", &T::survivors)
+      .doc("sums of pairs that were triangulated; of algorithm memory: that were vertices at the end");
+  d.scalar("count", &T::count).doc("sums that contribute");
+  d.scalar("touching_boundary", &T::touching_boundary).doc("of these, on the boundary of the union");
+  d.scalar("lower", &T::lower).doc("corner of the bounding box of the union, model units");
+  d.scalar("upper", &T::upper).doc("the opposite corner");
+  d.scalar("error_bound", &T::error_bound)
+      .doc("no point of the surface of the sum of the solids is farther from the union; -1: unknown");
+  d.scalar("a_compared_with", &T::a_compared_with)
+      .doc("the solid a: 0 its balls, 1 points, 2 an open mesh, 3 a closed mesh");
+  d.scalar("b_compared_with", &T::b_compared_with).doc("the same of b");
+  d.summary("pairs", "pairs of balls").summary("survivors", "sums of pairs that were triangulated");
+  d.summary("count", "sums that contribute: the balls of the result");
+  d.summary("touching_boundary", "of these, have a piece of their sphere on the boundary of the union");
+  d.summary("bbox", "bounding box of the union, model units; null when it is empty");
+  d.summary(
+      "error_bound",
+      "no point of the surface of the sum of the solids is farther from the union, model units; null when "
+      "it is unknown");
+  d.summary("error_bound_unknown", "why there is no error bound: no comparison, or one with no closed mesh");
+  d.summarize([](const T& v) {
+    geometry::Box box;
+    if (v.count > 0) box = {v.lower, v.upper};
+    const std::string why = geometry::why_unbounded(static_cast<geometry::ComparedWith>(v.a_compared_with),
+                                                    static_cast<geometry::ComparedWith>(v.b_compared_with));
+    return Summary{{"pairs", v.pairs},
+                   {"survivors", v.survivors},
+                   {"count", v.count},
+                   {"touching_boundary", v.touching_boundary},
+                   {"bbox", box_summary(box)},
+                   {"error_bound", v.error_bound < 0 ? SummaryValue(nullptr) : SummaryValue(v.error_bound)},
+                   {"error_bound_unknown", why.empty() ? SummaryValue(nullptr) : SummaryValue(why)}};
+  });
+  d.check([](const T& v) { return geometry::broken_invariant(v); });
+}
+
+}  // namespace ballflow

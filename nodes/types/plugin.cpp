@@ -1,0 +1,12 @@
+// Every artifact type of ballflow; the families' own libraries declare nodes only.
+#include <ballflow/sdk/library.hpp>
+
+#include "types/power_diagram_type.hpp"
+
+using namespace ballflow::geometry;
+
+BALLFLOW_PLUGIN(
+    "types", "0.1.0", ballflow::node_entries<>(),
+    (ballflow::type_entries<Balls, Bisection, Comparison, CoverCheck, CoverState, Growth, LocalFeatureSize,
+                            MassProperties, MedialAxis, MinkowskiReport, PointSet, PoleSet, PowerDiagram,
+                            SimplicialComplex, TopologyCheck, TopologyTable, TriangleMesh>()))
