@@ -6,7 +6,9 @@
 //   {"format":2,"node":"Enlarge","version":1,"libraries":{...},"params":{...},"seed":null,
 //    "inputs":{"balls":{"type":"Balls","version":1,"digest":"..."}}}
 // A loop has "body" too: {"nodes":{"0:Reduce":{...,"inputs":{"cover":"inputs.cover"}}},"states":{...}}.
-// A file parameter appears as {"file":{"digest":"...","format":"off.gz"}}.
+// A file parameter appears as {"file":{"digest":"...","format":"off.gz"}}. A node of a library outside the
+// installed folder has "library_file", the SHA-256 of that file: it may be built anew any time without
+// another version.
 #pragma once
 
 #include <map>

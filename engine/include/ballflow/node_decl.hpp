@@ -82,6 +82,9 @@ struct NodeDeclaration {
   std::vector<PortDecl> inputs, outputs;
   std::vector<ParamDecl> params;
   std::string plugin_path;
+  // SHA-256 of the library's file, part of the key: of libraries outside the installed folder, which change
+  // more often than their versions; else empty.
+  std::string library_file;
   const bf_node* entry = nullptr;
 
   const PortDecl* input(std::string_view name) const;

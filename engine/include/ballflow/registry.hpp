@@ -23,8 +23,10 @@ class Registry {
   /// Looks for *.so in `extra` (files or folders), the folders of $BALLFLOW_PLUGIN_PATH, and next to the
   /// executable (../lib/ballflow). Reads the ABI note of each file before it is loaded. A library that
   /// cannot be used is a refused candidate, not an error, unless it is a file of `extra`; a node or type
-  /// declared twice with different content throws Error (code plugin) that names both files. Of two equal
-  /// declarations the first found stays. A file that is found twice is loaded once.
+  /// declared twice with different content throws Error (code plugin) that names both files, and so does a
+  /// node that two different files declare in equal words: nothing says that they compute the same. Of copies
+  /// of one file, and of equal declarations of a type, the first found stays. A file that is found twice is
+  /// loaded once.
   static std::shared_ptr<const Registry> load(const std::vector<std::string>& extra = {});
   /// The default folder of node libraries of this executable.
   static std::string default_folder();
@@ -33,7 +35,9 @@ class Registry {
   Registry() = default;
   void add(NodeDeclaration node);
   void add(TypeDeclaration type);
-  void add_plugin(const bf_plugin& plugin, const std::string& path);
+  /// `library_file` as in NodeDeclaration. Throws Error (code plugin) that says what is wrong with the
+  /// tables. They are released with the registry.
+  void add_plugin(const bf_plugin& plugin, const std::string& path, const std::string& library_file = {});
 
   const NodeDeclaration* node(const std::string& id) const;
   const TypeDeclaration* type(const std::string& id) const;
@@ -50,6 +54,7 @@ class Registry {
   std::map<std::string, TypeDeclaration> types_;
   std::vector<PluginCandidate> candidates_;
   std::vector<std::string> folders_;
+  std::vector<std::shared_ptr<void>> owners_;  // of the tables of plugins
 };
 
 /// Reads the ABI note of an ELF file without loading it. Returns an empty string when the library fits,

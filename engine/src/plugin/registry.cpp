@@ -9,6 +9,7 @@
 
 #include "ballflow/error.hpp"
 #include "base/quote.hpp"
+#include "plugin/library_file.hpp"
 
 namespace ballflow {
 
@@ -81,6 +82,16 @@ void add_once(std::map<std::string, Declaration>& all, Declaration added, const 
               "remove one of the two libraries, or build both from the same sources");
 }
 
+/// Nodes that this program adds itself have no file and are told apart by their declarations only.
+bool same_file(const NodeDeclaration& a, const NodeDeclaration& b) {
+  if (a.plugin_path == b.plugin_path || a.plugin_path.empty() || b.plugin_path.empty()) return true;
+  const auto digest = [](const NodeDeclaration& node) {
+    return node.library_file.empty() ? library_digest(fs::canonical(node.plugin_path).string()).hex()
+                                     : node.library_file;
+  };
+  return digest(a) == digest(b);
+}
+
 /// The *.so files of a folder by name; a folder that is absent has none.
 std::vector<std::string> libraries_in(const fs::path& folder) {
   std::vector<std::string> files;
@@ -100,19 +111,36 @@ std::string Registry::default_folder() {
   return error ? std::string() : (self.parent_path().parent_path() / "lib" / "ballflow").string();
 }
 
-void Registry::add(NodeDeclaration node) { add_once(nodes_, std::move(node), "node"); }
+void Registry::add(NodeDeclaration node) {
+  const auto known = nodes_.find(node.id);
+  if (known != nodes_.end() && known->second.same_content(node) && !same_file(known->second, node)) {
+    throw Error(ExitCode::plugin,
+                "node " + in_quotes(node.id) + " is declared in the same words by two different files, " +
+                    origin(known->second.plugin_path) + " and " + origin(node.plugin_path) +
+                    ", and may compute different things",
+                "remove one of the two libraries, or install the same build in both places");
+  }
+  add_once(nodes_, std::move(node), "node");
+}
 void Registry::add(TypeDeclaration type) { add_once(types_, std::move(type), "type"); }
 
-void Registry::add_plugin(const bf_plugin& plugin, const std::string& path) {
+void Registry::add_plugin(const bf_plugin& plugin, const std::string& path, const std::string& library_file) {
   PluginTables tables = read_tables(plugin, path);
+  if (plugin.release != nullptr) owners_.emplace_back(plugin.owner, plugin.release);
   for (TypeDeclaration& type : tables.types) add(std::move(type));
-  for (NodeDeclaration& node : tables.nodes) add(std::move(node));
+  for (NodeDeclaration& node : tables.nodes) {
+    node.library_file = library_file;
+    add(std::move(node));
+  }
   candidates_.push_back({path, tables.name, tables.version, ""});
 }
 
 std::shared_ptr<const Registry> Registry::load(const std::vector<std::string>& extra) {
   const auto registry = std::make_shared<Registry>();
   std::set<std::string> seen;
+  const std::string own = default_folder();
+  std::error_code none;
+  const fs::path installed = own.empty() ? fs::path() : fs::canonical(own, none);
 
   const auto load_file = [&](const std::string& path) -> std::string {
     std::error_code error;
@@ -120,7 +148,10 @@ std::shared_ptr<const Registry> Registry::load(const std::vector<std::string>& e
     if (!error && !seen.insert(real.string()).second) return {};
     std::string why = refuse_plugin_file(path);
     const bf_plugin* plugin = nullptr;
+    std::string library_file;
     if (why.empty()) {
+      const fs::file_time_type written = fs::last_write_time(real, error);
+      if (real.parent_path() != installed) library_file = library_digest(real.string()).hex();
       // Never closed: artifacts, declarations and thread-local destructors point into it.
       void* const handle = dlopen(real.c_str(), RTLD_NOW | RTLD_LOCAL);
       if (handle == nullptr) {
@@ -129,6 +160,8 @@ std::shared_ptr<const Registry> Registry::load(const std::vector<std::string>& e
       } else if (const auto entry = reinterpret_cast<bf_plugin_entry>(dlsym(handle, "ballflow_plugin"));
                  entry == nullptr) {
         why = "exports no function ballflow_plugin";
+      } else if (fs::last_write_time(real, error) != written) {
+        why = "was written while it was loaded: try again";
       } else if (plugin = entry(); plugin == nullptr) {
         why = "could not make its tables of nodes and types";
       }
@@ -141,7 +174,7 @@ std::shared_ptr<const Registry> Registry::load(const std::vector<std::string>& e
       }
     }
     if (why.empty()) {
-      registry->add_plugin(*plugin, path);
+      registry->add_plugin(*plugin, path, library_file);
     } else {
       registry->candidates_.push_back({path, "", "", why});
     }
@@ -170,7 +203,6 @@ std::shared_ptr<const Registry> Registry::load(const std::vector<std::string>& e
       if (!folder.empty()) load_folder(std::string(folder));
     }
   }
-  const std::string own = default_folder();
   if (!own.empty()) load_folder(own);
 
   registry->drop_nodes_of_unknown_types();

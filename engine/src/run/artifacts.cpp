@@ -33,6 +33,13 @@ ArtifactPtr Runner::Impl::load(const EdgeRef& edge, const OutputEntry& entry, st
   const auto start = Clock::now();
   ArtifactPtr artifact = store_->load(entry);
   if (artifact == nullptr) return nullptr;
+  const TypeDeclaration* type = registry_.type(entry.type);
+  if (const std::string wrong = type == nullptr ? std::string() : check_arrays(*type, *artifact);
+      !wrong.empty()) {
+    // Valid once, or written by somebody else: like every failure of a lookup it is a miss.
+    message(edge.node, true, "the cached artifact of " + edge.port + " " + wrong + "; it is made again");
+    return nullptr;
+  }
   Event event{Event::Kind::cache_read, reader};
   event.text = dag_.nodes[edge.node].path + "." + edge.port;
   event.bytes = entry.bytes;

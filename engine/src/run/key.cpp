@@ -98,6 +98,13 @@ Json key_value(const ParamDecl& decl, const Json& value, Store& store) {
   }
 }
 
+/// SHA-256 of the file of the node's library where that is part of the key, else empty.
+const std::string& library_file(const NodeKind& kind) {
+  static const std::string none;
+  const NodeDeclaration* decl = kind.declared();
+  return decl == nullptr ? none : decl->library_file;
+}
+
 Json body_manifest(const Dag& body, Store& store);
 
 /// What a node does, without its inputs.
@@ -110,6 +117,7 @@ Json node_manifest(const DagNode& node, Store& store) {
     if (param.hashed) params[param.name] = key_value(param, node.params.at(param.name), store);
   }
   manifest["params"] = std::move(params);
+  if (const std::string& file = library_file(node.kind); !file.empty()) manifest["library_file"] = file;
   if (const Loop* loop = node.kind.loop()) manifest["body"] = body_manifest(loop->body, store);
   return manifest;
 }
@@ -167,6 +175,11 @@ ActionKey action_key(const DagNode& node, const std::map<std::string, OutputEntr
     write_string(version, text);
   }
   text += '}';
+  const std::string& file = library_file(kind);
+  if (!file.empty()) {
+    add_member("library_file");
+    write_string(file, text);
+  }
   add_member("params");
   text += '{';
   for (const auto& [name, value] : params) {
@@ -214,7 +227,7 @@ ActionKey action_key(const DagNode& node, const std::map<std::string, OutputEntr
     add_tag(bytes, 'o');
     add_u64(bytes, members);
   };
-  add_object(loop != nullptr ? 8 : 7);
+  add_object(7 + (loop != nullptr ? 1 : 0) + (file.empty() ? 0 : 1));
   if (loop != nullptr) {
     add_text(bytes, "body");
     add_value(bytes, body);
@@ -238,6 +251,10 @@ ActionKey action_key(const DagNode& node, const std::map<std::string, OutputEntr
   for (const auto& [name, version] : kind.libraries()) {
     add_text(bytes, name);
     add_string(version);
+  }
+  if (!file.empty()) {
+    add_text(bytes, "library_file");
+    add_string(file);
   }
   add_text(bytes, "node");
   add_string(kind.type());

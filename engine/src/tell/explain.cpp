@@ -27,6 +27,7 @@ std::string spoken(const Field& field) {
   if (field.path == "version") return field.type + " version";
   if (field.path == "node") return "node type";
   if (field.path == "format") return "key format";
+  if (field.path == "library_file") return "file of the node library";
   if (const auto library = behind(field.path, "libraries.")) return "library " + *library;
   if (const auto input = behind(field.path, "inputs.")) {
     const std::size_t dot = input->rfind('.');
@@ -55,6 +56,10 @@ void compare(const Field& field, const Json& before, const Json& now, std::vecto
     return;
   }
   if (before == now && before.type() == now.type()) return;  // 1 and 1.0 are equal and other keys
+  if (field.path == "library_file" || field.path.ends_with(".library_file")) {
+    out.push_back(spoken(field) + ": other content");
+    return;
+  }
   constexpr std::string_view digest = ".digest";
   if (field.path.size() > digest.size() && field.path.ends_with(digest)) {
     Field owner{field.path.substr(0, field.path.size() - digest.size()), field.type};
