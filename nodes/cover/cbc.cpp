@@ -168,6 +168,4 @@ class Cbc final : public IpSolver {
 
 std::unique_ptr<IpSolver> make_cbc() { return std::make_unique<Cbc>(); }
 
-std::string cbc_version() { return CBC_VERSION; }
-
 }  // namespace ballflow::geometry

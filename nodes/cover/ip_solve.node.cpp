@@ -31,6 +31,7 @@ struct IPSolve {
     d.cites("kornberger2010", "3.6.2");
     d.cites("lpsolve", "branch and bound").cites("forrest2005", "2");
     d.library("lp_solve", lp_solve_version()).library("CBC", cbc_version());
+    d.library("Clp", clp_version()).library("Cgl", cgl_version());
     d.input("cover", &IPSolve::cover).doc("any state of a set covering computation, best after Reduce");
     d.input("known", &IPSolve::known)
         .optional()

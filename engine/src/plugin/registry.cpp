@@ -82,14 +82,17 @@ void add_once(std::map<std::string, Declaration>& all, Declaration added, const 
               "remove one of the two libraries, or build both from the same sources");
 }
 
-/// Nodes that this program adds itself have no file and are told apart by their declarations only.
+/// Nodes that a program adds itself have no file, and are told apart by their declarations only.
 bool same_file(const NodeDeclaration& a, const NodeDeclaration& b) {
-  if (a.plugin_path == b.plugin_path || a.plugin_path.empty() || b.plugin_path.empty()) return true;
+  if (a.plugin_path == b.plugin_path) return true;
   const auto digest = [](const NodeDeclaration& node) {
-    return node.library_file.empty() ? library_digest(fs::canonical(node.plugin_path).string()).hex()
-                                     : node.library_file;
+    if (!node.library_file.empty()) return node.library_file;
+    std::error_code error;
+    const fs::path real = fs::canonical(node.plugin_path, error);
+    return error ? std::string() : library_digest(real.string()).hex();
   };
-  return digest(a) == digest(b);
+  const std::string of_a = digest(a), of_b = digest(b);
+  return of_a.empty() || of_b.empty() || of_a == of_b;
 }
 
 /// The *.so files of a folder by name; a folder that is absent has none.

@@ -10,7 +10,9 @@
 #include <random>
 
 #include "ballflow/error.hpp"
+#include "ballflow/key.hpp"
 #include "ballflow/registry.hpp"
+#include "ballflow/run.hpp"
 #include "test_data.hpp"
 
 namespace ballflow {
@@ -198,10 +200,54 @@ TEST_F(plugin, path_variable_adds_folders) {
   unsetenv("BALLFLOW_PLUGIN_PATH");
 }
 
-TEST_F(plugin, equal_declarations_of_two_libraries_are_fine) {
-  const auto registry = Registry::load({library("good"), library("good_again")});
+TEST_F(plugin, copies_of_one_library_are_fine) {
+  const std::string path = copy("good");
+  const auto registry = Registry::load({library("good"), path});
   EXPECT_EQ(registry->node("MakeToy")->plugin_path, library("good"));
   EXPECT_EQ(registry->candidates().at(1).refused, "");
+}
+
+TEST_F(plugin, equal_words_of_two_different_files_are_an_error) {
+  try {
+    Registry::load({library("good"), library("good_again")});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::plugin);
+    EXPECT_EQ(error.what(), "node \"MakeToy\" is declared in the same words by two different files, " +
+                                library("good") + " and " + library("good_again") +
+                                ", and may compute different things");
+  }
+}
+
+/// The key of MakeToy as the library at `path` declares it.
+ActionKey key_with(const std::string& path) {
+  const auto registry = Registry::load({path});
+  DagNode node;
+  node.decl = registry->node("MakeToy");
+  node.params["value"] = 1.0;
+  return action_key(node, {}, 0, *Store::open({"", false}));
+}
+
+TEST_F(plugin, another_build_of_a_library_has_other_keys_and_explain_says_why) {
+  const ActionKey first = key_with(copy("good"));
+  const ActionKey again = key_with(copy("good_again"));  // declares the same in equal words
+  EXPECT_NE(first.key.hex(), again.key.hex());
+  EXPECT_EQ(manifest_differences(first.manifest, again.manifest),
+            (std::vector<std::string>{"file of the node library: other content"}));
+  for (const ActionKey& key : {first, again}) EXPECT_EQ(key_of(key.manifest).hex(), key.key.hex());
+  EXPECT_EQ(key_with(library("good")).key.hex(), first.key.hex()) << "the content counts, not the path";
+}
+
+TEST_F(plugin, the_file_of_an_installed_library_is_in_no_key) {
+  const auto registry = Registry::load({library("good")});
+  EXPECT_NE(registry->node("MakeToy")->library_file, "");
+  std::size_t installed = 0;  // in ../lib/ballflow beside this executable
+  for (const auto& [id, node] : registry->nodes()) {
+    if (fs::path(node.plugin_path).parent_path() != Registry::default_folder()) continue;
+    ++installed;
+    EXPECT_EQ(node.library_file, "") << id;
+  }
+  if (installed == 0) GTEST_SKIP() << "no node library is built";
 }
 
 TEST_F(plugin, different_declarations_under_one_name_name_both_files) {

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <fstream>
 #include <limits>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "cover/components.hpp"
 #include "cover/greedy.hpp"
@@ -59,6 +61,28 @@ class EverySolver : public testing::TestWithParam<Solver> {
  protected:
   const std::unique_ptr<IpSolver> solver = GetParam().make();
 };
+
+/// Of a library in this process: its file name, links followed; empty where it is not there or linked
+/// statically.
+std::string file_in_memory(const std::string& library) {
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);) {
+    const std::size_t at = line.find("/" + library);
+    if (at != std::string::npos) return line.substr(at + 1);
+  }
+  return {};
+}
+
+TEST(ip_solve, tells_the_versions_of_the_libraries_that_run) {
+  for (const auto& [library, version] :
+       {std::pair{"libCbc.so", cbc_version()}, std::pair{"libCgl.so", cgl_version()}}) {
+    const std::string file = file_in_memory(library);
+    if (file.empty()) GTEST_SKIP() << library << " is linked statically";
+    EXPECT_EQ(version, file);
+  }
+  EXPECT_NE(clp_version().find('.'), std::string::npos);
+  EXPECT_NE(lp_solve_version().find('.'), std::string::npos);
+}
 
 INSTANTIATE_TEST_SUITE_P(ip_solve, EverySolver,
                          testing::Values(Solver{"lp_solve", make_lp_solve}, Solver{"cbc", make_cbc}),
