@@ -46,6 +46,14 @@ struct PortDecl {
   friend bool operator==(const PortDecl&, const PortDecl&) = default;
 };
 
+/// What is connected to an input is known by its slot: the name of the port, and for a port that is a list
+/// the place in it too: "clouds[0]", "clouds[1]", ...
+std::string list_slot(std::string_view port, std::size_t index);
+/// "clouds[1]" -> "clouds"
+std::string_view port_of_slot(std::string_view slot);
+/// The port that has the slot; null when there is none, and for a place in what is no list.
+const PortDecl* find_input(const std::vector<PortDecl>& inputs, std::string_view slot);
+
 enum class ParamKind { number, integer, boolean, string, choice, file };
 
 struct ParamDecl {

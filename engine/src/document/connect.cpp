@@ -187,17 +187,24 @@ class Connector {
         for (const PortDecl& port : kind.inputs()) {
           const bool usable = known_type(port.type);  // a loop has the types that its body declares
           consumers.push_back(
-              {port.name, {usable ? port.type : std::string(), port.type_version, port.optional || !usable}});
+              {port.name,
+               {usable ? port.type : std::string(), port.type_version, port.optional || !usable},
+               port.list});
         }
         check_inputs(scope, file.nodes[i], "node " + in_quotes(file.nodes[i].name) + " (" + kind.type() + ")",
                      consumers);
+        std::size_t places = 0;  // of the list that is being connected
         for (const GraphNode::Input& input : file.nodes[i].inputs) {
-          const auto takes = [&](const PortDecl& port) { return port.name == input.port; };
-          if (std::none_of(kind.inputs().begin(), kind.inputs().end(), takes)) continue;
+          const auto port = std::find_if(kind.inputs().begin(), kind.inputs().end(),
+                                         [&](const PortDecl& decl) { return decl.name == input.port; });
+          if (port == kind.inputs().end()) continue;
           const Target target = resolve(scope, &input.from);
-          if (target.kind == Target::Kind::leaf) edges_[slot.index][input.port] = {target.leaf, target.port};
-          if (target.kind == Target::Kind::loop_input || target.kind == Target::Kind::given)
-            edges_[slot.index][input.port] = {loop_input, target.port};
+          const bool outside = target.kind == Target::Kind::loop_input || target.kind == Target::Kind::given;
+          if (!outside && target.kind != Target::Kind::leaf) continue;
+          // What is not connected after all (an optional input of a subgraph) leaves no gap in a list.
+          if (input.index.value_or(0) == 0) places = 0;
+          const std::string place = port->list ? list_slot(input.port, places++) : input.port;
+          edges_[slot.index][place] = {outside ? loop_input : target.leaf, target.port};
         }
       } else if (slot.kind == Scope::Slot::Kind::scope) {
         const GraphFile& child = file_of(slot.index);
@@ -205,7 +212,7 @@ class Connector {
         for (const GraphInput& input : child.inputs) {
           const bool usable = !input.broken && known_type(input.type);
           consumers.push_back(
-              {input.name, {usable ? input.type : std::string(), 0, input.optional || !usable}});
+              {input.name, {usable ? input.type : std::string(), 0, input.optional || !usable}, false});
         }
         check_inputs(scope, file.nodes[i],
                      "subgraph " + in_quotes(file.nodes[i].name) + " (" + child.source.file() + ")",
@@ -247,7 +254,32 @@ class Connector {
   struct Consumer {
     std::string name;
     PortType type;  // empty id: unknown, already reported
+    bool list = false;
   };
+
+  void check_edge(std::size_t scope, const GraphNode& node, const std::string& owner,
+                  const Consumer& consumer, const Reference& from) {
+    const GraphFile& file = file_of(scope);
+    const std::string what = "input " + in_quotes(consumer.name);
+    const std::optional<PortType> given = type_of(scope, &from);
+    if (!given || consumer.type.id.empty()) return;
+    const std::string source = in_quotes(written(file, from));
+    if (given->id != consumer.type.id) {
+      findings_.error(
+          file, from.offset,
+          source + " is a " + given->id + ", but " + what + " of " + owner + " takes a " + consumer.type.id,
+          suggestion(scope, node, consumer));
+    } else if (given->version != 0 && consumer.type.version != 0 && given->version != consumer.type.version) {
+      findings_.error(file, from.offset,
+                      source + " is a " + given->id + " version " + std::to_string(given->version) +
+                          ", but " + what + " of " + owner + " takes version " +
+                          std::to_string(consumer.type.version),
+                      "the two node libraries were built for different versions of the type");
+    } else if (given->optional && !consumer.type.optional) {
+      findings_.error(file, from.offset,
+                      source + " is optional, but " + what + " of " + owner + " is required");
+    }
+  }
 
   void check_inputs(std::size_t scope, const GraphNode& node, const std::string& owner,
                     const std::vector<Consumer>& consumers) {
@@ -264,25 +296,13 @@ class Connector {
         }
         continue;
       }
-      const std::optional<PortType> given = type_of(scope, &input->from);
-      if (!given || consumer.type.id.empty()) continue;
-      const std::string source = in_quotes(written(file, input->from));
-      if (given->id != consumer.type.id) {
-        findings_.error(
-            file, input->from.offset,
-            source + " is a " + given->id + ", but " + what + " of " + owner + " takes a " + consumer.type.id,
-            suggestion(scope, node, consumer));
-      } else if (given->version != 0 && consumer.type.version != 0 &&
-                 given->version != consumer.type.version) {
-        findings_.error(file, input->from.offset,
-                        source + " is a " + given->id + " version " + std::to_string(given->version) +
-                            ", but " + what + " of " + owner + " takes version " +
-                            std::to_string(consumer.type.version),
-                        "the two node libraries were built for different versions of the type");
-      } else if (given->optional && !consumer.type.optional) {
-        findings_.error(file, input->from.offset,
-                        source + " is optional, but " + what + " of " + owner + " is required");
+      if (input->index && !consumer.list) {
+        findings_.error(file, input->offset, what + " of " + owner + " takes one artifact, not a list",
+                        "write one edge: " + in_quotes(consumer.name) + ": \"node.port\"");
+        continue;
       }
+      for (; input != node.inputs.data() + node.inputs.size() && input->port == consumer.name; ++input)
+        check_edge(scope, node, owner, consumer, input->from);
     }
     for (const GraphNode::Input& input : node.inputs) {
       if (std::find(names.begin(), names.end(), input.port) != names.end()) continue;
@@ -475,7 +495,7 @@ class Connector {
     const GraphNode& node = file_of(leaf.scope).nodes[leaf.node];
     Offset offset = node.offset;
     for (const auto& [port, edge] : edges_[cycle[0]]) {
-      if (edge.node == cycle.back()) offset = node.input(port)->from.offset;
+      if (edge.node == cycle.back()) offset = node.input(std::string(port_of_slot(port)))->from.offset;
     }
     findings_.error(file_of(leaf.scope), offset, "cycle: " + printable(text), "remove one of these edges");
   }

@@ -397,7 +397,13 @@ class Reader {
       }
       if (field.key == "inputs" && object(field)) {
         for (const Member& item : field.value.members) {
-          node.inputs.push_back({item.key, item.offset, read_reference(item.value, &node)});
+          if (!item.value.is_array()) {
+            node.inputs.push_back({item.key, item.offset, read_reference(item.value, &node), std::nullopt});
+            continue;
+          }
+          for (std::size_t i = 0; i < item.value.members.size(); ++i)
+            node.inputs.push_back(
+                {item.key, item.offset, read_reference(item.value.members[i].value, &node), i});
         }
       }
       if (field.key == "params" && object(field)) {
@@ -407,8 +413,8 @@ class Reader {
       }
     }
     const auto by_name = [](const auto& a, const auto& b) { return a.name < b.name; };
-    std::sort(node.inputs.begin(), node.inputs.end(),
-              [](const auto& a, const auto& b) { return a.port < b.port; });
+    std::stable_sort(node.inputs.begin(), node.inputs.end(),
+                     [](const auto& a, const auto& b) { return a.port < b.port; });
     std::sort(node.params.begin(), node.params.end(), by_name);
     std::sort(loop_params.begin(), loop_params.end(), by_name);
     if (auto* loop = std::get_if<GraphNode::Loop>(&node.kind)) loop->params = std::move(loop_params);

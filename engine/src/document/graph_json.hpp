@@ -63,6 +63,7 @@ struct GraphNode {
     std::string port;
     Offset offset = 0;
     Reference from;
+    std::optional<std::size_t> index;  // in a list of edges; those of one port stand together, in order
   };
   struct Param {
     std::string name;
@@ -90,6 +91,7 @@ struct GraphNode {
   bool broken = false;
   bool used = false;
 
+  /// The first one of the port; null when there is none.
   const Input* input(const std::string& port) const;
   const Param* param(const std::string& name) const;
 };

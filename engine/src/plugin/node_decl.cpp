@@ -174,6 +174,20 @@ ParamDecl parse_param(const Json& json, const std::string& where) {
 
 }  // namespace
 
+std::string list_slot(std::string_view port, std::size_t index) {
+  return std::string(port) + "[" + std::to_string(index) + "]";
+}
+
+std::string_view port_of_slot(std::string_view slot) { return slot.substr(0, slot.find('[')); }
+
+const PortDecl* find_input(const std::vector<PortDecl>& inputs, std::string_view slot) {
+  const std::string_view name = port_of_slot(slot);
+  for (const PortDecl& port : inputs) {
+    if (port.name == name && port.list == (name.size() != slot.size())) return &port;
+  }
+  return nullptr;
+}
+
 const PortDecl* NodeDeclaration::input(std::string_view name) const {
   for (const PortDecl& port : inputs) {
     if (port.name == name) return &port;

@@ -115,7 +115,8 @@ class Writer {
     for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
       for (const auto& [port, edge] : dag.nodes[i].inputs) {
         if (edge.node == loop_input) continue;  // drawn by the loop
-        line(indent(), out_port(prefix, edge) + " -> " + node_id(prefix, i) + ":in_" + port + ":w;");
+        line(indent(), out_port(prefix, edge) + " -> " + node_id(prefix, i) + ":in_" +
+                           std::string(port_of_slot(port)) + ":w;");
       }
     }
   }
@@ -133,8 +134,8 @@ class Writer {
     for (std::size_t i = 0; i < loop.body.nodes.size(); ++i) {
       for (const auto& [port, edge] : loop.body.nodes[i].inputs) {
         if (edge.node != loop_input) continue;
-        line(indent + "  ",
-             id + ":in_" + edge.port + " -> " + node_id(id + "_", i) + ":in_" + port + ":w [color=gray50];");
+        line(indent + "  ", id + ":in_" + edge.port + " -> " + node_id(id + "_", i) + ":in_" +
+                                std::string(port_of_slot(port)) + ":w [color=gray50];");
       }
     }
     for (const DagOutput& state : loop.body.outputs) {

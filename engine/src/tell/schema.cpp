@@ -65,8 +65,14 @@ Json node_definition(const NodeDeclaration& node) {
   Json inputs = {{"type", "object"}, {"additionalProperties", false}, {"properties", Json::object()}};
   Json required_inputs = Json::array();
   for (const PortDecl& port : node.inputs) {
-    inputs["properties"][port.name] =
-        edge_schema(port.type + (port.optional ? ", optional: " : ": ") + port.doc);
+    Json edge = edge_schema(port.type + (port.list ? ", several" : "") +
+                            (port.optional ? ", optional: " : ": ") + port.doc);
+    if (port.list) {
+      Json list = {{"type", "array"}, {"items", edge_schema("one of them, in order")}};
+      if (!port.optional) list["minItems"] = 1;
+      edge = {{"anyOf", {std::move(edge), std::move(list)}}};
+    }
+    inputs["properties"][port.name] = std::move(edge);
     if (!port.optional) required_inputs.push_back(port.name);
   }
   Json params = {{"type", "object"}, {"additionalProperties", false}, {"properties", Json::object()}};
@@ -251,7 +257,9 @@ std::string range_text(const ParamDecl& param) {
 Json made_up_example(const NodeDeclaration& node) {
   Json json = {{"type", node.id}};
   for (const PortDecl& port : node.inputs) {
-    if (!port.optional) json["inputs"][port.name] = port.name + "_source." + port.name;
+    if (port.optional) continue;
+    const std::string edge = port.name + "_source." + port.name;
+    json["inputs"][port.name] = port.list ? Json{edge, "other_" + edge} : Json(edge);
   }
   for (const ParamDecl& param : node.params) {
     if (!param.required) {
@@ -279,8 +287,8 @@ void ports_table(std::string& text, const char* title, const std::vector<PortDec
   if (ports.empty()) return;
   text += "\n| " + std::string(title) + " | type | meaning |\n|---|---|---|\n";
   for (const PortDecl& port : ports) {
-    text += "| `" + port.name + "`" + (port.optional ? " (optional)" : "") + " | " + port.type + " | " +
-            cell(port.doc) + " |\n";
+    text += "| `" + port.name + "`" + (port.optional ? " (optional)" : "") + " | " + port.type +
+            (port.list ? ", several" : "") + " | " + cell(port.doc) + " |\n";
   }
 }
 

@@ -222,8 +222,7 @@ TEST_F(plugin, equal_words_of_two_different_files_are_an_error) {
 /// The key of MakeToy as the library at `path` declares it.
 ActionKey key_with(const std::string& path) {
   const auto registry = Registry::load({path});
-  DagNode node;
-  node.decl = registry->node("MakeToy");
+  DagNode node{"make", *registry->node("MakeToy")};
   node.params["value"] = 1.0;
   return action_key(node, {}, 0, *Store::open({"", false}));
 }

@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "ballflow/gc.hpp"
@@ -43,6 +44,14 @@ std::map<std::string, ArtifactPtr> read_inputs(const Common& common, const Regis
 /// The name of the node in the graph that is made for it: "acme.Offset" -> "Offset".
 std::string node_name(const std::string& type) { return type.substr(type.rfind('.') + 1); }
 
+/// The name of the input of that graph: "clouds[1]" -> "clouds_1".
+std::string input_name(const std::string& slot) {
+  std::string name = slot;
+  std::replace(name.begin(), name.end(), '[', '_');
+  std::erase(name, ']');
+  return name;
+}
+
 /// A graph with one node, whose inputs are those of the graph.
 std::string graph_text(const Registry& registry, const ExecNodeArguments& arguments,
                        const std::map<std::string, ArtifactPtr>& inputs) {
@@ -57,14 +66,23 @@ std::string graph_text(const Registry& registry, const ExecNodeArguments& argume
     node["type"] = arguments.type;
   }
   Json graph = {{"inputs", Json::object()}, {"nodes", Json::object()}};
-  for (const auto& [port, artifact] : inputs) {
+  for (const auto& [slot, artifact] : inputs) {
+    const std::string port(port_of_slot(slot));
     if (registry.type(artifact->type()) == nullptr) {
       throw Error(ExitCode::usage,
                   "input " + port + " is a " + artifact->type() + ", a type that no node library declares",
                   "name the library with --plugin");
     }
-    graph["inputs"][port] = {{"type", artifact->type()}};
-    node["inputs"][port] = "inputs." + port;
+    graph["inputs"][input_name(slot)] = {{"type", artifact->type()}};
+    if (slot == port) node["inputs"][port] = "inputs." + port;
+  }
+  // Of a list: in order, and without gaps.
+  for (const auto& [slot, artifact] : inputs) {
+    const std::string port(port_of_slot(slot));
+    if (slot == port || node["inputs"].contains(port)) continue;
+    node["inputs"][port] = Json::array();
+    for (std::size_t i = 0; inputs.contains(list_slot(port, i)); ++i)
+      node["inputs"][port].push_back("inputs." + input_name(list_slot(port, i)));
   }
   graph["nodes"][node_name(arguments.type)] = std::move(node);
   return graph.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -87,7 +105,9 @@ Dag node_dag(const Registry& registry, const ExecNodeArguments& arguments,
              const std::vector<Override>& overrides, const std::map<std::string, ArtifactPtr>& inputs) {
   constexpr const char* nowhere = "exec-node";
   try {
-    Dag dag = parse_graph(graph_text(registry, arguments, inputs), nowhere, registry, overrides, {}, inputs);
+    std::map<std::string, ArtifactPtr> given;
+    for (const auto& [slot, artifact] : inputs) given.emplace(input_name(slot), artifact);
+    Dag dag = parse_graph(graph_text(registry, arguments, inputs), nowhere, registry, overrides, {}, given);
     const std::size_t node = dag.nodes.size() - 1;  // behind its inputs
     for (const PortDecl& port : dag.nodes[node].kind.outputs())
       dag.outputs.push_back({port.name, port.doc, {node, port.name}});

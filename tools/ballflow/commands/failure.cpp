@@ -78,7 +78,8 @@ std::string exec_node_line(const FailedRun& run, const FailedCall& call) {
     for (const auto& [name, value] : loop->body.params) line += set(name, value);
     line += inner_overrides(run, node);
   }
-  for (const auto& [port, entry] : call.inputs) line += " --input " + port + "=" + entry.digest.hex();
+  for (const auto& [port, entry] : call.inputs)
+    line += " --input " + shell_word(port + "=" + entry.digest.hex());
   return line;
 }
 

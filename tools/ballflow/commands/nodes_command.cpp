@@ -33,8 +33,8 @@ void describe(const Registry& registry, const NodeDeclaration& node) {
     if (list.empty()) return;
     std::printf("\n%s\n", title);
     for (const PortDecl& port : list) {
-      std::printf("  %s: %s%s\n      %s\n", port.name.c_str(), port.type.c_str(),
-                  port.optional ? ", optional" : "", port.doc.c_str());
+      std::printf("  %s: %s%s%s\n      %s\n", port.name.c_str(), port.type.c_str(),
+                  port.list ? ", several in order" : "", port.optional ? ", optional" : "", port.doc.c_str());
       const TypeDeclaration* type = registry.type(port.type);
       if (type == nullptr) continue;
       std::string fields;

@@ -116,9 +116,9 @@ struct Host {
       }
       return 0;
     };
-    table.fail = [](void* self, bf_bytes cause, bf_bytes hint) {
-      of(self).cause = detail::view(cause);
-      of(self).hint = detail::view(hint);
+    table.fail = [](void* self, bf_bytes why, bf_bytes what_to_do) {
+      of(self).cause = detail::view(why);
+      of(self).hint = detail::view(what_to_do);
     };
     return node->run(node->self, &table);
   }
