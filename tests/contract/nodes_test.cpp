@@ -50,6 +50,8 @@ Json another_value(const ParamDecl& param) {
     case ParamKind::choice:
       for (const auto& [value, doc] : param.choices) candidates.push_back(value);
       break;
+    case ParamKind::artifact:  // no node has one
+      break;
     case ParamKind::string:
       candidates = {param.required ? Json("other") : Json(param.default_value.get<std::string>() + "x")};
       break;

@@ -16,6 +16,15 @@
 // a whole value keeps the parameter's type; inside a longer text it is replaced as text (numbers in their
 // shortest form), and "$${" stands for "${". It is understood in the values of "params" and in "graph". A
 // parameter without "default" must be given: by --set at the top, by the including node in a subgraph.
+// A port that takes a list of artifacts is given a list of edges: "meshes": ["a.mesh", "b.mesh"].
+//
+// A parameter of kind "artifact" is an input of the graph that is run, from a file, the cache or a host
+// program:
+//   "params": { "balls": { "kind": "artifact", "type": "Balls", "doc": "..." } }
+//   "enlarge": { "type": "Enlarge", "inputs": { "balls": "${balls}" } }
+// Its value is the path of a safetensors file or a digest (of at least 6 digits) in the cache. Subgraphs have
+// "inputs" instead.
+//
 // An input of a subgraph may be "optional": true. Nodes may have a "doc", the graph a "$schema" for editors.
 // Paths of subgraphs are relative to the file that names them. // and /* */ comments are accepted.
 //
@@ -41,6 +50,7 @@
 // for every file. Only the sweep of the top graph counts.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -200,6 +210,9 @@ struct SweepOptions {
   std::vector<std::string> inputs;
 };
 
+/// The artifact that a text names. Throws Error that says why there is none.
+using FindArtifact = std::function<ArtifactPtr(const std::string& name)>;
+
 /// The path of a node without the variants that have it: "[epsilon=0.1]/enlarge" -> "enlarge".
 std::string base_path(const std::string& path);
 
@@ -209,16 +222,17 @@ std::string base_path(const std::string& path);
 /// wherever they are written; those of subgraphs to the file that names them.
 /// Limits: 64 MB of text, nesting depth 100, 1 000 000 nodes, subgraphs 50 deep, 100 000 variants.
 ///
-/// `given`: artifacts for the "inputs" of a graph without a sweep, by name; they become nodes
+/// `given`: artifacts for the "inputs" and the parameters of kind artifact, by name; they become nodes
 /// "inputs/<name>". An input that is neither given nor optional is an error, as is an artifact without an
-/// input of its name and type.
+/// input of its name and type. `find` looks for other values of artifact parameters: digests and files.
 Dag load_graph(const std::string& file, const Registry& registry, const std::vector<Override>& overrides = {},
-               const SweepOptions& sweep = {}, const std::map<std::string, ArtifactPtr>& given = {});
+               const SweepOptions& sweep = {}, const std::map<std::string, ArtifactPtr>& given = {},
+               const FindArtifact& find = {});
 
 /// The same from text; `file` is the name used in messages and the base of relative subgraph paths.
 Dag parse_graph(const std::string& text, const std::string& file, const Registry& registry,
                 const std::vector<Override>& overrides = {}, const SweepOptions& sweep = {},
-                const std::map<std::string, ArtifactPtr>& given = {});
+                const std::map<std::string, ArtifactPtr>& given = {}, const FindArtifact& find = {});
 
 /// Which nodes the outputs of the graph need; as Dag::nodes.
 std::vector<bool> needed_nodes(const Dag& dag);

@@ -54,7 +54,7 @@ std::string_view port_of_slot(std::string_view slot);
 /// The port that has the slot; null when there is none, and for a place in what is no list.
 const PortDecl* find_input(const std::vector<PortDecl>& inputs, std::string_view slot);
 
-enum class ParamKind { number, integer, boolean, string, choice, file };
+enum class ParamKind { number, integer, boolean, string, choice, file, artifact };  // the last of graphs only
 
 struct ParamDecl {
   std::string name, doc, unit;
@@ -65,6 +65,7 @@ struct ParamDecl {
   std::optional<double> minimum, maximum, exclusive_minimum, exclusive_maximum;
   std::vector<std::pair<std::string, std::string>> choices;  // value, doc
   std::vector<std::string> schemes;                          // prefixes of file parameters that are not files
+  std::string type;                                          // of an artifact
 
   /// Empty when `value` is acceptable, else why not ("must be at least 0, is -1").
   std::string refuse(const Json& value) const;

@@ -83,7 +83,7 @@ class Connector {
           std::string hint = did_you_mean(input.type, type_names_);
           findings_.error(file, input.type_offset, "unknown type " + in_quotes(input.type),
                           hint.empty() ? "types are " + listed(type_names_, 30) : hint);
-        } else if (i == 0 && !input.optional && !given_.contains(input.name)) {
+        } else if (i == 0 && !input.optional && !input.param && !given_.contains(input.name)) {
           findings_.error(file, input.offset,
                           "input " + in_quotes(input.name) + " (" + input.type + ") is not connected",
                           "a graph with inputs is a subgraph: run a graph that includes it");
@@ -313,6 +313,8 @@ class Connector {
   }
 
   static std::string written(const GraphFile& file, const Reference& reference) {
+    if (reference.kind == Reference::Kind::input && file.inputs[reference.index].param)
+      return "${" + reference.port + "}";
     return (reference.kind == Reference::Kind::input ? std::string("inputs")
                                                      : file.nodes[reference.index].name) +
            "." + reference.port;

@@ -82,6 +82,11 @@ class Expander {
     chain_.push_back({canonical(file.source.file()), file.source.file()});
     std::vector<std::optional<Json>> params;
     for (const GraphParam& param : file.params) {
+      if (param.decl.kind == ParamKind::artifact) {  // find_given looks for its value
+        settings_.find("", param.decl.name);
+        params.emplace_back(nullptr);
+        continue;
+      }
       if (const Setting* setting = settings_.find("", param.decl.name)) {
         params.push_back(param.broken ? std::nullopt : value_of(*setting, param.decl));
       } else if (param.broken) {
@@ -277,7 +282,15 @@ class Expander {
     std::vector<std::string> known;
     for (const GraphParam& param : file.params) {
       known.push_back(param.decl.name);
-      if (param.broken) {
+      if (param.decl.kind == ParamKind::artifact && !param.broken) {
+        findings_.error(*scope.file, node.offset,
+                        node_is + " " + in_quotes(node.name) + " (" + file.source.file() +
+                            ") has the parameter " + in_quotes(param.decl.name) +
+                            " of kind artifact, which only the graph that is run has",
+                        "give that file an input: \"inputs\": { " + in_quotes(param.decl.name) +
+                            ": { \"type\": " + in_quotes(param.decl.type) + " } }");
+      }
+      if (param.broken || param.decl.kind == ParamKind::artifact) {
         settings_.find(path, param.decl.name);
         params.push_back(std::nullopt);
         continue;

@@ -87,6 +87,15 @@ struct Expansion {
 void expand(const GraphFile& top, GraphFiles& files, const Registry& registry,
             const std::vector<const Setting*>& settings, Expansion& expansion, Findings& findings);
 
+/// The artifacts for the inputs of the top graph: `given`, and those that its parameters of kind artifact
+/// name in settings or by default. `find` is asked once per name; what it found is in `found`. Each is
+/// checked against its type.
+std::map<std::string, ArtifactPtr> find_given(const GraphFile& top, const Registry& registry,
+                                              const std::vector<const Setting*>& settings,
+                                              const std::map<std::string, ArtifactPtr>& given,
+                                              const FindArtifact& find,
+                                              std::map<std::string, ArtifactPtr>& found, Findings& findings);
+
 /// Connects the leaves, checks ports, types and cycles, and puts the nodes into topological order. `given`
 /// are the artifacts for the inputs of the top graph.
 Dag connect(const Expansion& expansion, const Registry& registry,

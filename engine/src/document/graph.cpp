@@ -50,8 +50,35 @@ class VariantFindings {
 constexpr std::size_t max_expanded = 10 * max_instances;
 constexpr std::size_t enough_failures = 20;  // variants that are wrong before the others are not looked at
 
+/// Artifacts from outside: those that were handed over, and how others are found by their names.
+struct Outside {
+  const std::map<std::string, ArtifactPtr>& given;
+  const FindArtifact& find;
+  std::map<std::string, ArtifactPtr> found = {};
+};
+
+/// One graph without a sweep, or one variant. Nothing usable when there are findings.
+Dag expand_and_connect(const GraphFile& top, GraphFiles& files, const Registry& registry,
+                       const std::vector<const Setting*>& settings, Outside& outside, std::size_t& expanded,
+                       Findings& findings) {
+  Expansion expansion;
+  expand(top, files, registry, settings, expansion, findings);
+  expanded += expansion.leaves.size() + expansion.scopes.size();
+  if (expansion.abandoned) return {};
+  const auto given =
+      find_given(top, registry, settings, outside.given, outside.find, outside.found, findings);
+  Dag dag = connect(expansion, registry, given, findings);
+  for (const GraphParam& param : top.params) {  // a report says which content it was, wherever that came from
+    const auto artifact = given.find(param.decl.name);
+    if (param.decl.kind == ParamKind::artifact && artifact != given.end())
+      dag.params[param.decl.name] = artifact->second->digest().hex();
+  }
+  return dag;
+}
+
 Dag merge_variants(const GraphFile& top, GraphFiles& files, const Registry& registry,
-                   const std::vector<const Setting*>& sets, const Sweep& sweep, Findings& findings) {
+                   const std::vector<const Setting*>& sets, const Sweep& sweep, Outside& outside,
+                   Findings& findings) {
   VariantMerger merger(sweep);
   VariantFindings all;
   std::size_t failures = 0, expanded = 0;
@@ -60,10 +87,7 @@ Dag merge_variants(const GraphFile& top, GraphFiles& files, const Registry& regi
     for (std::size_t axis = 0; axis < choice.size(); ++axis)
       settings.push_back(&sweep.axes[axis].values[choice[axis]]);
     Findings found(&findings);
-    Expansion expansion;
-    expand(top, files, registry, settings, expansion, found);
-    Dag dag;
-    if (!expansion.abandoned) dag = connect(expansion, registry, {}, found);
+    Dag dag = expand_and_connect(top, files, registry, settings, outside, expanded, found);
     if (found.failed()) {
       ++failures;
     } else if (failures == 0) {
@@ -71,7 +95,6 @@ Dag merge_variants(const GraphFile& top, GraphFiles& files, const Registry& regi
     }
     all.add(sweep.name_of(choice), found.take(files.names));
     if (failures == enough_failures) break;
-    expanded += expansion.leaves.size() + expansion.scopes.size();
     if (merger.nodes() <= max_instances && expanded <= max_expanded) continue;
     findings.error(top, top.sweep ? top.sweep->offset : top.root.offset,
                    "the sweep has " + std::to_string(sweep.variants.size()) + " variants with more than " +
@@ -92,8 +115,9 @@ std::string base_path(const std::string& path) {
 
 Dag parse_graph(const std::string& text, const std::string& file, const Registry& registry,
                 const std::vector<Override>& overrides, const SweepOptions& options,
-                const std::map<std::string, ArtifactPtr>& given) {
+                const std::map<std::string, ArtifactPtr>& given, const FindArtifact& find) {
   Findings findings;
+  Outside outside{given, find};
   GraphFiles files(findings);
   files.names.push_back(file);
   std::vector<Setting> sets;
@@ -108,11 +132,10 @@ Dag parse_graph(const std::string& text, const std::string& file, const Registry
   Dag dag;
   if (const auto top = read_graph_file(json_text::Source(file, text), findings)) {
     if (const auto sweep = plan_sweep(*top, sets, options, findings)) {
-      dag = merge_variants(*top, files, registry, settings, *sweep, findings);
+      dag = merge_variants(*top, files, registry, settings, *sweep, outside, findings);
     } else {
-      Expansion expansion;
-      expand(*top, files, registry, settings, expansion, findings);
-      if (!expansion.abandoned) dag = connect(expansion, registry, given, findings);
+      std::size_t expanded = 0;
+      dag = expand_and_connect(*top, files, registry, settings, outside, expanded, findings);
     }
   }
   const bool failed = findings.failed();
@@ -123,8 +146,9 @@ Dag parse_graph(const std::string& text, const std::string& file, const Registry
 }
 
 Dag load_graph(const std::string& file, const Registry& registry, const std::vector<Override>& overrides,
-               const SweepOptions& sweep, const std::map<std::string, ArtifactPtr>& given) {
-  return parse_graph(read_text_file(file), file, registry, overrides, sweep, given);
+               const SweepOptions& sweep, const std::map<std::string, ArtifactPtr>& given,
+               const FindArtifact& find) {
+  return parse_graph(read_text_file(file), file, registry, overrides, sweep, given, find);
 }
 
 }  // namespace ballflow

@@ -164,6 +164,17 @@ class Reader {
     param.offset = member.offset;
     param.decl.name = member.key;
     param.broken = !read_param_fields(member, param.decl);
+    if (param.decl.kind == ParamKind::artifact) {
+      GraphInput input;
+      input.name = member.key;
+      input.type = param.decl.type;
+      input.offset = input.type_offset = member.offset;
+      if (const Value* type = member.value.find("type")) input.type_offset = type->offset;
+      input.broken = param.broken;
+      input.param = file_.params.size();
+      file_.input_index.emplace(member.key, file_.inputs.size());
+      file_.inputs.push_back(std::move(input));
+    }
     file_.param_index.emplace(member.key, file_.params.size());
     file_.params.push_back(std::move(param));
   }
@@ -182,23 +193,23 @@ class Reader {
       return false;
     }
     good = known_keys(member.value, "a parameter",
-                      {"kind", "default", "minimum", "maximum", "choices", "unit", "doc"}) &&
+                      {"kind", "default", "minimum", "maximum", "choices", "unit", "doc", "type"}) &&
            good;
     const Value* kind = member.value.find("kind");
     if (kind == nullptr) {
       error(member.offset, "parameter " + in_quotes(member.key) + " has no \"kind\"",
-            "kinds are number, integer, boolean, string, choice and file");
+            "kinds are number, integer, boolean, string, choice, file and artifact");
       return false;
     }
     if (!kind->is_string() || !kind_from_name(kind->string(), decl.kind)) {
-      std::string hint =
-          kind->is_string()
-              ? did_you_mean(kind->string(), {"number", "integer", "boolean", "string", "choice", "file"})
-              : "";
+      std::string hint = kind->is_string()
+                             ? did_you_mean(kind->string(), {"number", "integer", "boolean", "string",
+                                                             "choice", "file", "artifact"})
+                             : "";
       error(kind->offset,
             kind->is_string() ? "unknown kind " + in_quotes(kind->string())
                               : "\"kind\" must be a text, " + described(kind->scalar),
-            hint.empty() ? "kinds are number, integer, boolean, string, choice and file" : hint);
+            hint.empty() ? "kinds are number, integer, boolean, string, choice, file and artifact" : hint);
       return false;
     }
     const Value* default_value = nullptr;
@@ -210,6 +221,13 @@ class Reader {
       if (field.key == "maximum") good = bound(field, decl, decl.maximum) && good;
       if (field.key == "choices") good = read_choices(*(choices = &field), decl) && good;
       if (field.key == "default") default_value = &field.value;
+      if (field.key == "type") good = artifact_type(field, decl) && good;
+    }
+    if (decl.kind == ParamKind::artifact && decl.type.empty()) {
+      if (good)
+        error(member.offset, "parameter " + in_quotes(member.key) + " is an artifact without \"type\"",
+              "\"type\": \"PointSet\"");
+      return false;
     }
     if (decl.kind == ParamKind::choice && choices == nullptr) {
       error(member.offset, "parameter " + in_quotes(member.key) + " is a choice without \"choices\"",
@@ -225,6 +243,15 @@ class Reader {
     }
     decl.default_value = normalised(decl, default_value->scalar);
     return true;
+  }
+
+  bool artifact_type(const Member& field, ParamDecl& decl) {
+    if (decl.kind != ParamKind::artifact) {
+      error(field.offset, std::string("\"type\" is for the kind artifact, the parameter is of kind ") +
+                              kind_name(decl.kind));
+      return false;
+    }
+    return text(field, decl.type);
   }
 
   bool bound(const Member& field, const ParamDecl& decl, std::optional<double>& to) {
@@ -293,6 +320,9 @@ class Reader {
     if (!is_identifier(member.key)) {
       error(member.offset, in_quotes(member.key) + " is no name of an input",
             "use letters, digits and _, no digit first");
+    } else if (file_.input_index.contains(member.key)) {
+      error(member.offset, "the parameter " + in_quotes(member.key) + " is an input of this name already",
+            "remove one of them");
     } else if (!member.value.is_object()) {
       error(member.value.offset,
             "input " + in_quotes(member.key) + " must be an object, " + described(member.value.scalar),
@@ -451,6 +481,11 @@ class Reader {
           result.broken = true;
         } else {
           file_.params[found->second].used = true;
+          if (file_.params[found->second].decl.kind == ParamKind::artifact) {
+            error(value.offset, "parameter " + in_quotes(name) + " is an artifact, which is no value",
+                  "connect it to an input of a node: \"${" + name + "}\"");
+            result.broken = true;
+          }
           if (!plain.empty()) result.parts.push_back({std::move(plain), std::nullopt});
           plain.clear();
           result.parts.push_back({"", found->second});
@@ -468,6 +503,32 @@ class Reader {
     return result;
   }
 
+  /// "${balls}"
+  Reference read_parameter_edge(const Value& value, Reference result) {
+    const std::string& source = value.string();
+    result.port = source.substr(2, source.size() - 3);
+    const auto found = file_.param_index.find(result.port);
+    if (found == file_.param_index.end()) {
+      std::string hint =
+          did_you_mean(result.port, names_of(file_.params, [](const GraphParam& p) { return p.decl.name; }));
+      error(value.offset, "the graph has no parameter " + in_quotes(result.port),
+            hint.empty() ? "declare it under \"params\"" : hint);
+      return result;
+    }
+    GraphParam& param = file_.params[found->second];
+    param.used = true;
+    if (param.decl.kind != ParamKind::artifact) {
+      if (!param.broken)
+        error(value.offset, "parameter " + in_quotes(result.port) + " is of kind " +
+                                kind_name(param.decl.kind) + ", an edge needs an artifact");
+      return result;
+    }
+    result.kind = Reference::Kind::input;
+    result.index = file_.input_index.at(result.port);
+    file_.inputs[result.index].used = true;
+    return result;
+  }
+
   Reference read_reference(const Value& value, const GraphNode* consumer) {
     Reference result;
     result.offset = value.offset;
@@ -476,6 +537,8 @@ class Reader {
       return result;
     }
     const std::string& source = value.string();
+    if (source.starts_with("${") && source.ends_with('}'))
+      return read_parameter_edge(value, std::move(result));
     const std::size_t dot = source.find('.');
     const std::string owner = source.substr(0, dot);
     result.port = dot == std::string::npos ? std::string() : source.substr(dot + 1);
@@ -547,7 +610,7 @@ class Reader {
       }
     }
     for (const GraphInput& input : file_.inputs) {
-      if (!input.used && !input.broken)
+      if (!input.used && !input.broken && !input.param)
         findings_.warning(file_, input.offset, "input " + in_quotes(input.name) + " is not used");
     }
     for (const GraphNode& node : file_.nodes) {

@@ -56,6 +56,7 @@ struct GraphInput {
   Offset offset = 0, type_offset = 0;
   bool broken = false;  // its type is unknown
   bool used = false;
+  std::optional<std::size_t> param;  // index into GraphFile::params where it is a parameter of kind artifact
 };
 
 struct GraphNode {

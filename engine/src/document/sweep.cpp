@@ -427,6 +427,7 @@ void append_identity(std::string& to, const DagNode& node) {
     append(to, name);
     append(to, value.dump());
   }
+  if (const Given* given = node.kind.given()) append(to, given->artifact->digest().hex());
   const Loop* const loop = node.kind.loop();
   if (loop == nullptr) return;
   const Dag& body = loop->body;

@@ -134,6 +134,8 @@ ParamDecl parse_param(const Json& json, const std::string& where) {
   fields.rename(where + " " + in_quotes(param.name));
   const std::string kind = fields.text("kind");
   if (!kind_from_name(kind, param.kind)) fields.fail_field("kind", in_quotes(kind) + " is unknown");
+  if (param.kind == ParamKind::artifact)
+    fields.fail_field("kind", "is artifact: a node takes artifacts as inputs");
   param.doc = fields.text("doc");
   param.unit = fields.text("unit", true);
   param.hashed = fields.boolean("hashed", true);

@@ -55,6 +55,12 @@ std::string ParamDecl::refuse(const Json& value) const {
       if (required && value.get_ref<const std::string&>().empty())
         return "must be the path of a file, is empty";
       return {};
+    case ParamKind::artifact:
+      if (value.is_string() && !value.get_ref<const std::string&>().empty() &&
+          value.get_ref<const std::string&>().find('\0') == std::string::npos) {
+        return {};
+      }
+      return "must be the digest or the file of an artifact, " + described(value);
   }
   return "is of an unknown kind";
 }
@@ -96,8 +102,8 @@ bool from_text(const ParamDecl& param, const std::string& text, Json& value) {
 }
 
 namespace {
-constexpr std::array<const char*, 6> kind_names = {"number", "integer", "boolean",
-                                                   "string", "choice",  "file"};
+constexpr std::array<const char*, 7> kind_names = {"number", "integer", "boolean", "string",
+                                                   "choice", "file",    "artifact"};
 }
 
 const char* kind_name(ParamKind kind) { return kind_names[static_cast<std::size_t>(kind)]; }

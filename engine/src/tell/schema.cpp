@@ -11,7 +11,9 @@ const char* const draft = "http://json-schema.org/draft-07/schema#";
 const char* const substitution = "\\$\\{[A-Za-z_][A-Za-z0-9_]*\\}";
 const char* const identifier = "^[A-Za-z_][A-Za-z0-9_]*$";
 const char* const node_name = "^[A-Za-z0-9_][A-Za-z0-9_-]*$";
-const char* const edge = "^[A-Za-z0-9_][A-Za-z0-9_-]*\\.[A-Za-z_][A-Za-z0-9_]*$";
+// "node.port", or a parameter of kind artifact.
+const char* const edge =
+    "^([A-Za-z0-9_][A-Za-z0-9_-]*\\.[A-Za-z_][A-Za-z0-9_]*|\\$\\{[A-Za-z_][A-Za-z0-9_]*\\})$";
 
 std::string join(const std::string& a, const std::string& b, const char* between) {
   return a.empty() || b.empty() ? a + b : a + between + b;
@@ -49,6 +51,7 @@ Json param_schema(const ParamDecl& param) {
       break;
     case ParamKind::string:
     case ParamKind::file:
+    case ParamKind::artifact:  // of graphs only
       // A text may contain substitutions anyway.
       schema["type"] = "string";
       if (param.kind == ParamKind::file && param.required) schema["minLength"] = 1;
@@ -65,14 +68,14 @@ Json node_definition(const NodeDeclaration& node) {
   Json inputs = {{"type", "object"}, {"additionalProperties", false}, {"properties", Json::object()}};
   Json required_inputs = Json::array();
   for (const PortDecl& port : node.inputs) {
-    Json edge = edge_schema(port.type + (port.list ? ", several" : "") +
-                            (port.optional ? ", optional: " : ": ") + port.doc);
+    Json wanted = edge_schema(port.type + (port.list ? ", several" : "") +
+                              (port.optional ? ", optional: " : ": ") + port.doc);
     if (port.list) {
       Json list = {{"type", "array"}, {"items", edge_schema("one of them, in order")}};
       if (!port.optional) list["minItems"] = 1;
-      edge = {{"anyOf", {std::move(edge), std::move(list)}}};
+      wanted = {{"anyOf", {std::move(wanted), std::move(list)}}};
     }
-    inputs["properties"][port.name] = std::move(edge);
+    inputs["properties"][port.name] = std::move(wanted);
     if (!port.optional) required_inputs.push_back(port.name);
   }
   Json params = {{"type", "object"}, {"additionalProperties", false}, {"properties", Json::object()}};
@@ -174,7 +177,7 @@ Json graph_param_schema() {
           {"additionalProperties", false},
           {"required", {"kind"}},
           {"properties",
-           {{"kind", {{"enum", {"number", "integer", "boolean", "string", "choice", "file"}}}},
+           {{"kind", {{"enum", {"number", "integer", "boolean", "string", "choice", "file", "artifact"}}}},
             {"default",
              {{"type", {"number", "boolean", "string"}},
               {"description", "without it the parameter must be given"}}},
@@ -191,6 +194,7 @@ Json graph_param_schema() {
                    {"required", {"value"}},
                    {"properties", {{"value", text}, {"doc", text}}}}}}}}}},
             {"unit", text},
+            {"type", {{"type", "string"}, {"description", "of the artifact, for the kind artifact"}}},
             {"doc", text}}}};
 }
 
@@ -258,8 +262,8 @@ Json made_up_example(const NodeDeclaration& node) {
   Json json = {{"type", node.id}};
   for (const PortDecl& port : node.inputs) {
     if (port.optional) continue;
-    const std::string edge = port.name + "_source." + port.name;
-    json["inputs"][port.name] = port.list ? Json{edge, "other_" + edge} : Json(edge);
+    const std::string source = port.name + "_source." + port.name;
+    json["inputs"][port.name] = port.list ? Json{source, "other_" + source} : Json(source);
   }
   for (const ParamDecl& param : node.params) {
     if (!param.required) {

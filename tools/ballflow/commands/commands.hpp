@@ -37,7 +37,7 @@ struct GraphArguments {
   void add_to(const Command& command);
   std::vector<Override> overrides() const;  // of --set
   /// Reads and checks the graph, with what was set; prints its warnings.
-  Dag load(const Registry& registry) const;
+  Dag load(const Common& common, const Registry& registry) const;
   /// The words of a command line that give the same graph, quoted for a shell.
   std::string words() const;
 };

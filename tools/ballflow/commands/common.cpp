@@ -144,8 +144,9 @@ std::vector<Override> split(const char* option, const std::vector<std::string>& 
 
 std::vector<Override> GraphArguments::overrides() const { return split("--set", sets, "epsilon=0.5"); }
 
-Dag GraphArguments::load(const Registry& registry) const {
-  Dag dag = load_graph(file, registry, overrides(), {split("--axis", axes, "epsilon=0.1,0.3"), inputs});
+Dag GraphArguments::load(const Common& common, const Registry& registry) const {
+  Dag dag = load_graph(file, registry, overrides(), {split("--axis", axes, "epsilon=0.1,0.3"), inputs}, {},
+                       [&common](const std::string& name) { return find_artifact(common, name); });
   for (const Diagnostic& warning : dag.warnings) std::fprintf(stderr, "%s\n", warning.text().c_str());
   return dag;
 }

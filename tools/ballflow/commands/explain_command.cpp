@@ -82,7 +82,7 @@ int explain_node(const Common& common, const ExplainArguments& arguments) {
   const std::string& graph_file = arguments.graph.file;
   if (planned) {
     const auto registry = common.registry();
-    const Dag dag = arguments.graph.load(*registry);
+    const Dag dag = arguments.graph.load(common, *registry);
     now = records_of(dag, plan(dag, *store, arguments.seed, {}));
   } else {
     const RunRecord latest = find_run(*store, "latest");

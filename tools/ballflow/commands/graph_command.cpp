@@ -21,7 +21,7 @@ struct DrawArguments {
 int draw(const Common& common, const DrawArguments& arguments) {
   const std::string page_template = arguments.html.empty() ? "" : viewer_template();
   const auto registry = common.registry();
-  const Dag dag = arguments.graph.load(*registry);
+  const Dag dag = arguments.graph.load(common, *registry);
   std::vector<NodePlan> plans;
   if (arguments.status) {
     const auto store = common.store();

@@ -16,7 +16,7 @@ struct PlanArguments {
 
 int show_plan(const Common& common, const PlanArguments& arguments) {
   const auto registry = common.registry();
-  const Dag dag = arguments.graph.load(*registry);
+  const Dag dag = arguments.graph.load(common, *registry);
   const auto store = common.store();
   const std::vector<NodePlan> plans =
       plan(dag, *store, arguments.seed, latest_manifests(*store, arguments.graph.file));
@@ -56,7 +56,7 @@ int show_plan(const Common& common, const PlanArguments& arguments) {
 
 int check(const Common& common, const GraphArguments& arguments) {
   const auto registry = common.registry();
-  const Dag dag = arguments.load(*registry);
+  const Dag dag = arguments.load(common, *registry);
   const auto counted = [](std::size_t n, const char* thing) {
     return std::to_string(n) + " " + thing + (n == 1 ? "" : "s");
   };

@@ -169,7 +169,7 @@ int run(const Common& common, const RunArguments& arguments) {
     formats[output] = std::move(name);
   }
   const auto registry = common.registry();
-  const Dag dag = arguments.graph.load(*registry);
+  const Dag dag = arguments.graph.load(common, *registry);
   if (arguments.sweep && dag.variants.empty()) {
     throw Error(ExitCode::usage, arguments.graph.file + " has no \"sweep\"",
                 "say what to sweep over: --axis NAME=VALUE,VALUE, or --inputs 'PATTERN' for files");

@@ -125,6 +125,92 @@ TEST_F(GivenTest, reach_the_nodes_of_subgraphs_and_loops) {
   EXPECT_EQ(*static_cast<const double*>(output->find("values")->data), 12);
 }
 
+const char* const doubled = R"({
+  "params": { "numbers": { "kind": "artifact", "type": "Numbers", "doc": "to be doubled" } },
+  "nodes": { "sum": { "type": "Add", "inputs": { "a": "${numbers}", "b": "${numbers}" } } },
+  "outputs": { "sum": "sum.sum" } })";
+
+/// A host that knows artifacts by name.
+struct Shelf {
+  std::map<std::string, ArtifactPtr> artifacts;
+  int asked = 0;
+  FindArtifact find() {
+    return [this](const std::string& name) {
+      ++asked;
+      const auto found = artifacts.find(name);
+      if (found == artifacts.end())
+        throw Error(ExitCode::usage, "there is no artifact " + name, "look elsewhere");
+      return found->second;
+    };
+  }
+};
+
+TEST_F(GivenTest, a_parameter_may_be_an_artifact_by_name_by_default_or_from_the_host) {
+  Shelf shelf{{{"two.safetensors", numbers({2})}, {"three.safetensors", numbers({3})}}};
+  const auto value_with = [&](const std::string& text, const std::vector<Override>& sets,
+                              const std::map<std::string, ArtifactPtr>& given) {
+    const Dag dag = parse_graph(text, folder.file("graph.json"), registry, sets, {}, given, shelf.find());
+    EXPECT_EQ(dag.params.at("numbers"), dag.nodes.at(0).kind.given()->artifact->digest().hex());
+    EXPECT_EQ(run(dag, Store::open({})).status, ExitCode::ok);
+    return *static_cast<const double*>(output->find("values")->data);
+  };
+  EXPECT_EQ(value_with(doubled, {{"numbers", "two.safetensors"}}, {}), 4);
+  EXPECT_EQ(value_with(doubled, {{"numbers", "two.safetensors"}, {"numbers", "three.safetensors"}}, {}), 6);
+  EXPECT_EQ(value_with(doubled, {}, {{"numbers", numbers({5})}}), 10);
+  std::string with_default = doubled;
+  with_default.replace(with_default.find("\"doc\""), 0, "\"default\": \"three.safetensors\", ");
+  EXPECT_EQ(value_with(with_default, {}, {}), 6);
+}
+
+TEST_F(GivenTest, what_is_wrong_with_an_artifact_parameter_is_said_where_it_is) {
+  Shelf shelf{{{"letters", Artifact::seal("Letters", 1, {}, "{}", nullptr)},
+               {"halves", Artifact::seal("Numbers", 1, {}, R"({"count":0,"first":null})", nullptr)}}};
+  const auto problem_with = [&](const std::string& text, const std::vector<Override>& sets) {
+    try {
+      parse_graph(text, folder.file("graph.json"), registry, sets, {}, {}, shelf.find());
+    } catch (const GraphError& error) {
+      return error.findings().at(0).message;
+    }
+    return std::string();
+  };
+  EXPECT_EQ(problem_with(doubled, {}), "parameter \"numbers\" has no value");
+  EXPECT_EQ(problem_with(doubled, {{"numbers", "nothing"}}),
+            "parameter \"numbers\": there is no artifact nothing");
+  EXPECT_EQ(problem_with(doubled, {{"numbers", "letters"}}),
+            "parameter \"numbers\": \"letters\" is a \"Letters\" version 1, must be a \"Numbers\" version 1");
+  EXPECT_EQ(problem_with(doubled, {{"numbers", "halves"}}),
+            "parameter \"numbers\": \"halves\" has no array \"values\" (the numbers)");
+  EXPECT_EQ(problem(doubled, {}), "parameter \"numbers\" has no value");
+  const auto with = [](const std::string& params, const std::string& edge) {
+    return R"({ "params": { )" + params + R"( }, "nodes": { "sum": { "type": "Add", "inputs": { "a": ")" +
+           edge + R"(" } } }, "outputs": { "sum": "sum.sum" } })";
+  };
+  EXPECT_EQ(problem_with(with(R"("n": { "kind": "artifact" })", "${n}"), {}),
+            "parameter \"n\" is an artifact without \"type\"");
+  EXPECT_EQ(problem_with(with(R"("n": { "kind": "number", "default": 1 })", "${n}"), {}),
+            "parameter \"n\" is of kind number, an edge needs an artifact");
+  EXPECT_EQ(problem_with(with(R"("n": { "kind": "number", "type": "Numbers", "default": 1 })", "${n}"), {}),
+            "\"type\" is for the kind artifact, the parameter is of kind number");
+  EXPECT_EQ(problem_with(with(R"("n": { "kind": "number", "default": 1 })", "${m}"), {}),
+            "the graph has no parameter \"m\"");
+}
+
+TEST_F(GivenTest, a_sweep_over_artifacts_computes_each_once_and_looks_for_it_once) {
+  Shelf shelf{{{"two", numbers({2})}, {"three", numbers({3})}}};
+  const std::string text = R"({
+    "params": { "numbers": { "kind": "artifact", "type": "Numbers" }, "by": { "kind": "number", "default": 1 } },
+    "sweep": { "axes": { "numbers": ["two", "three"], "by": [1, 2] } },
+    "nodes": { "sum": { "type": "Add", "inputs": { "a": "${numbers}" } },
+               "step": { "type": "Step", "inputs": { "numbers": "sum.sum" }, "params": { "by": "${by}" } } },
+    "outputs": { "step": "step.numbers" } })";
+  const Dag dag = parse_graph(text, folder.file("graph.json"), registry, {}, {}, {}, shelf.find());
+  EXPECT_EQ(shelf.asked, 2);
+  EXPECT_EQ(dag.variants.size(), 4u);
+  const RunResult result = run(dag, Store::open({}));
+  EXPECT_EQ(result.status, ExitCode::ok);
+  EXPECT_EQ(toy::counters.add, 2);
+}
+
 TEST_F(GivenTest, a_failed_node_leaves_its_inputs_in_the_store_even_if_nobody_had_stored_them) {
   const auto cache = store();
   const Dag dag = parse(R"({ "nodes": {
