@@ -266,5 +266,38 @@ TEST_F(ExecNodeTest, a_file_that_breaks_the_invariants_of_its_type_never_reaches
   EXPECT_NE(result.err.find("no valid PointSet"), std::string::npos) << result.err;
 }
 
+TEST_F(ExecNodeTest, a_graph_takes_an_artifact_as_a_parameter_from_the_cache_or_a_file) {
+  ASSERT_EQ(ballflow({"run", test::source_file("graphs/dmt.json"), "--set", "input=shape:torus?n=600",
+                      "--report", folder.file("report.json")})
+                .exit_code,
+            0);
+  const std::string points = digest_of("sample", "points"), poles = digest_of("poles", "poles");
+  const std::string graph = folder.file("poles.json");
+  test::write_file(graph, R"({
+    "params": { "sample": { "kind": "artifact", "type": "PointSet", "doc": "the sample" } },
+    "nodes": { "poles": { "type": "VoronoiPoles", "inputs": { "points": "${sample}" } } },
+    "outputs": { "poles": "poles.poles" } })");
+  const auto run = [&](const std::string& value) {
+    return ballflow({"run", graph, "--set", "sample=" + value, "--report", folder.file("again.json")});
+  };
+  const ProcessResult by_digest = run(points.substr(0, 12));
+  EXPECT_EQ(by_digest.exit_code, 0) << by_digest.err;
+  const json report = json::parse(test::read_file(folder.file("again.json")));
+  EXPECT_EQ(report.at("nodes").at("poles").at("status"), "hit")
+      << "the content is in the key, not where it was found";
+  EXPECT_EQ(report.at("outputs").at("poles").at("digest"), poles);
+  ASSERT_EQ(ballflow({"export", points, folder.file("points.safetensors")}).exit_code, 0);
+  const ProcessResult by_file = run(folder.file("points.safetensors"));
+  EXPECT_EQ(by_file.exit_code, 0) << by_file.err;
+  EXPECT_EQ(json::parse(test::read_file(folder.file("again.json"))).at("outputs").at("poles").at("digest"),
+            poles);
+  const ProcessResult wrong = run(poles);
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_NE(wrong.err.find("must be a \"PointSet\""), std::string::npos) << wrong.err;
+  const ProcessResult absent = run("nowhere.safetensors");
+  EXPECT_EQ(absent.exit_code, 2);
+  EXPECT_NE(absent.err.find("there is no artifact"), std::string::npos) << absent.err;
+}
+
 }  // namespace
 }  // namespace ballflow

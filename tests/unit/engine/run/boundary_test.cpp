@@ -2,10 +2,36 @@
 // exception.
 #include <stdexcept>
 
+#include "ballflow/dot.hpp"
 #include "ballflow/executor.hpp"
 #include "ballflow/key.hpp"
+#include "ballflow/schema.hpp"
 #include "probe.hpp"
 #include "run_fixture.hpp"
+
+namespace toy {
+
+/// Puts lists one behind the other.
+struct Concat {
+  InList<Numbers> lists;
+  In<Numbers> last;
+  Out<Numbers> all;
+  static void declare(NodeDecl<Concat>& d) {
+    d.id("Concat", 1).summary("Puts lists one behind the other.");
+    d.input("lists", &Concat::lists).doc("in this order");
+    d.input("last", &Concat::last).optional().doc("behind them");
+    d.output("all", &Concat::all).doc("all numbers");
+  }
+  void run(RunContext&) {
+    std::vector<double> v;
+    for (const Numbers& list : lists)
+      v.insert(v.end(), list.values.data(), list.values.data() + list.values.size());
+    if (last) v.insert(v.end(), last->values.data(), last->values.data() + last->values.size());
+    all = Numbers{std::move(v)};
+  }
+};
+
+}  // namespace toy
 
 namespace ballflow {
 namespace {
@@ -75,6 +101,95 @@ TEST_F(BoundaryTest, what_a_host_throws_goes_around_the_node) {
     }
     EXPECT_THROW(in_process_executor()->execute(request), std::out_of_range);
   }
+}
+
+/// Graphs with a port that takes a list.
+struct ListPorts : RunTest {
+  ListPorts() {
+    registry.add_plugin(*detail::keep_plugin(
+                            "concat", "1", [] { return node_entries<toy::Concat>(); },
+                            [] { return std::vector<const bf_type*>(); }),
+                        "concat");
+  }
+  /// Sources "one", "two", ... "twelve", and Concat with these inputs.
+  std::string text(const std::string& inputs) {
+    std::string nodes;
+    for (int i = 1; i <= 12; ++i) {
+      nodes += R"("s)" + std::to_string(i) + R"(": { "type": "Source", "params": { "count": 1, "value": )" +
+               std::to_string(i) + " } },\n";
+    }
+    return R"({ "nodes": { )" + nodes + R"("all": { "type": "Concat", "inputs": )" + inputs +
+           R"( } }, "outputs": { "all": "all.all" } })";
+  }
+  Dag parse(const std::string& inputs) { return parse_graph(text(inputs), folder.file("g.json"), registry); }
+  std::string problem(const std::string& inputs) {
+    try {
+      parse(inputs);
+    } catch (const GraphError& error) {
+      return error.findings().at(0).message;
+    }
+    return {};
+  }
+  std::vector<double> values(const Dag& dag, std::shared_ptr<Store> where) {
+    Runner runner(dag, registry, std::move(where), {}, events);
+    result = runner.run();
+    EXPECT_EQ(result.status, ExitCode::ok);
+    const ArtifactPtr all = runner.artifact(dag.outputs.at(0).from);
+    const auto* data = static_cast<const double*>(all->find("values")->data);
+    return {data, data + all->find("values")->shape[0]};
+  }
+  RunResult result;
+};
+
+TEST_F(ListPorts, hand_over_artifacts_in_the_order_of_the_graph) {
+  const std::string twelve =
+      R"(["s1.numbers", "s2.numbers", "s3.numbers", "s4.numbers", "s5.numbers", "s6.numbers", "s7.numbers",
+          "s8.numbers", "s9.numbers", "s10.numbers", "s11.numbers", "s12.numbers"])";
+  EXPECT_EQ(values(parse(R"({ "lists": )" + twelve + R"(, "last": "s1.numbers" })"), nullptr),
+            (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 1}));
+  EXPECT_EQ(values(parse(R"({ "lists": ["s2.numbers", "s1.numbers", "s2.numbers"] })"), nullptr),
+            (std::vector<double>{2, 1, 2}));
+  EXPECT_EQ(values(parse(R"({ "lists": "s3.numbers" })"), nullptr), (std::vector<double>{3}))
+      << "one edge is a list of one";
+}
+
+TEST_F(ListPorts, order_and_number_are_in_the_key_and_explain_names_the_place) {
+  const auto where = store();
+  values(parse(R"({ "lists": ["s1.numbers", "s2.numbers"] })"), where);
+  const std::string first = result.nodes.back().manifest;
+  values(parse(R"({ "lists": ["s1.numbers", "s2.numbers"] })"), where);
+  EXPECT_EQ(result.nodes.back().status, hit);
+  values(parse(R"({ "lists": ["s2.numbers", "s1.numbers"] })"), where);
+  EXPECT_EQ(result.nodes.back().status, ran);
+  EXPECT_EQ(manifest_differences(first, result.nodes.back().manifest),
+            (std::vector<std::string>{"input lists[0]: other content", "input lists[1]: other content"}));
+  values(parse(R"({ "lists": ["s1.numbers"] })"), where);
+  EXPECT_EQ(result.nodes.back().status, ran);
+  EXPECT_EQ(manifest_differences(first, result.nodes.back().manifest),
+            (std::vector<std::string>{"input lists[1] is gone"}));
+  EXPECT_EQ(key_of(first).hex(), key_of(first).hex());
+}
+
+TEST_F(ListPorts, are_checked_edge_by_edge) {
+  EXPECT_EQ(problem("{}"), "node \"all\" (Concat) misses its input \"lists\" (Numbers)");
+  EXPECT_EQ(problem(R"({ "lists": [] })"), "node \"all\" (Concat) misses its input \"lists\" (Numbers)");
+  EXPECT_EQ(problem(R"({ "lists": ["s1.numbers"], "last": ["s1.numbers"] })"),
+            "input \"last\" of node \"all\" (Concat) takes one artifact, not a list");
+  EXPECT_EQ(problem(R"({ "lists": ["s1.numbers", 7] })"), "an edge must be a text \"node.port\", is 7");
+  EXPECT_EQ(problem(R"({ "lists": ["s1.numbers", "s2.nothing"] })"),
+            "node \"s2\" (Source) has no output \"nothing\"");
+  EXPECT_EQ(problem(R"({ "lists": ["s1.numbers"], "lists[1]": "s2.numbers" })"),
+            "node \"all\" (Concat) has no input \"lists[1]\"");
+}
+
+TEST_F(ListPorts, are_drawn_and_in_the_schema) {
+  const std::string drawn = dot(parse(R"({ "lists": ["s1.numbers", "s2.numbers"] })"), {});
+  std::size_t edges = 0;
+  for (std::size_t at = 0; (at = drawn.find(":in_lists:w", at)) != std::string::npos; ++at) ++edges;
+  EXPECT_EQ(edges, 2u);
+  const Json inputs = nodes_schema(registry).at("definitions").at("Concat").at("properties").at("inputs");
+  EXPECT_EQ(inputs.at("properties").at("lists").at("anyOf").at(1).at("minItems"), 1);
+  EXPECT_EQ(inputs.at("properties").at("last").at("type"), "string");
 }
 
 }  // namespace
