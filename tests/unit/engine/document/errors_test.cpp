@@ -209,7 +209,8 @@ TEST(graph_error, edges_that_lead_nowhere) {
             "g.json:2:39: an edge must be \"node.port\", is the text \"l\" (at /nodes/g/inputs/points)\n"
             "  name the output port too: \"l.<port>\"\n");
   EXPECT_EQ(errors(with_nodes("\"g\":{\"type\":\"Grow\",\"inputs\":{\"points\":[\"l.points\"]}}")),
-            "g.json:2:39: an edge must be a text \"node.port\", is an array (at /nodes/g/inputs/points)\n");
+            "g.json:2:30: input \"points\" of node \"g\" (Grow) takes one artifact, not a list (at "
+            "/nodes/g/inputs/points)\n  write one edge: \"points\": \"node.port\"\n");
   EXPECT_EQ(errors(with_nodes("\"g\":{\"type\":\"Grow\",\"inputs\":{\"points\":\"inputs.points\"}}")),
             "g.json:2:39: the graph has no input \"points\" (at /nodes/g/inputs/points)\n  the graph "
             "declares no \"inputs\"\n");
@@ -295,7 +296,7 @@ TEST(graph_error, parameters_of_the_graph) {
   };
   EXPECT_EQ(declared("\"a\":{\"default\":1}"),
             "g.json:2:1: parameter \"a\" has no \"kind\" (at /params/a)\n"
-            "  kinds are number, integer, boolean, string, choice and file\n");
+            "  kinds are number, integer, boolean, string, choice, file and artifact\n");
   EXPECT_EQ(declared("\"a\":{\"kind\":\"numbr\"}"),
             "g.json:2:13: unknown kind \"numbr\" (at /params/a/kind)\n  did you mean \"number\"?\n");
   EXPECT_EQ(declared("\"a\":{\"kind\":\"number\",\"minimum\":1,\"default\":0}"),
