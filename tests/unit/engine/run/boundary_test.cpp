@@ -50,7 +50,7 @@ TEST_F(BoundaryTest, a_cached_artifact_that_is_not_as_declared_is_made_again) {
   const auto source = node(dag, "source", "Source", {}, {{"value", 2.5}});
   const auto round = node(dag, "round", "Round", {{"numbers", {source, "numbers"}}});
   dag.outputs.push_back({"rounded", "", {round, "rounded"}});
-  const RunResult good = run(dag, nullptr);
+  const RunResult good = run(dag, Store::open({}));
 
   const auto where = store();
   const ArtifactPtr forged = forged_numbers();
@@ -145,11 +145,11 @@ TEST_F(ListPorts, hand_over_artifacts_in_the_order_of_the_graph) {
   const std::string twelve =
       R"(["s1.numbers", "s2.numbers", "s3.numbers", "s4.numbers", "s5.numbers", "s6.numbers", "s7.numbers",
           "s8.numbers", "s9.numbers", "s10.numbers", "s11.numbers", "s12.numbers"])";
-  EXPECT_EQ(values(parse(R"({ "lists": )" + twelve + R"(, "last": "s1.numbers" })"), nullptr),
+  EXPECT_EQ(values(parse(R"({ "lists": )" + twelve + R"(, "last": "s1.numbers" })"), Store::open({})),
             (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 1}));
-  EXPECT_EQ(values(parse(R"({ "lists": ["s2.numbers", "s1.numbers", "s2.numbers"] })"), nullptr),
+  EXPECT_EQ(values(parse(R"({ "lists": ["s2.numbers", "s1.numbers", "s2.numbers"] })"), Store::open({})),
             (std::vector<double>{2, 1, 2}));
-  EXPECT_EQ(values(parse(R"({ "lists": "s3.numbers" })"), nullptr), (std::vector<double>{3}))
+  EXPECT_EQ(values(parse(R"({ "lists": "s3.numbers" })"), Store::open({})), (std::vector<double>{3}))
       << "one edge is a list of one";
 }
 
