@@ -11,6 +11,7 @@
 
 #include "ballflow/node_decl.hpp"
 #include "ballflow/registry.hpp"
+#include "list.hpp"
 #include "run_nodes.hpp"
 
 namespace sdk_test {

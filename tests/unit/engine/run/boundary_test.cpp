@@ -9,30 +9,6 @@
 #include "probe.hpp"
 #include "run_fixture.hpp"
 
-namespace toy {
-
-/// Puts lists one behind the other.
-struct Concat {
-  InList<Numbers> lists;
-  In<Numbers> last;
-  Out<Numbers> all;
-  static void declare(NodeDecl<Concat>& d) {
-    d.id("Concat", 1).summary("Puts lists one behind the other.");
-    d.input("lists", &Concat::lists).doc("in this order");
-    d.input("last", &Concat::last).optional().doc("behind them");
-    d.output("all", &Concat::all).doc("all numbers");
-  }
-  void run(RunContext&) {
-    std::vector<double> v;
-    for (const Numbers& list : lists)
-      v.insert(v.end(), list.values.data(), list.values.data() + list.values.size());
-    if (last) v.insert(v.end(), last->values.data(), last->values.data() + last->values.size());
-    all = Numbers{std::move(v)};
-  }
-};
-
-}  // namespace toy
-
 namespace ballflow {
 namespace {
 
@@ -105,13 +81,7 @@ TEST_F(BoundaryTest, what_a_host_throws_goes_around_the_node) {
 
 /// Graphs with a port that takes a list.
 struct ListPorts : RunTest {
-  ListPorts() {
-    registry.add_plugin(*detail::keep_plugin(
-                            "concat", "1", [] { return node_entries<toy::Concat>(); },
-                            [] { return std::vector<const bf_type*>(); }),
-                        "concat");
-  }
-  /// Sources "one", "two", ... "twelve", and Concat with these inputs.
+  /// Sources "s1" to "s12", and Concat with these inputs.
   std::string text(const std::string& inputs) {
     std::string nodes;
     for (int i = 1; i <= 12; ++i) {

@@ -12,25 +12,9 @@
 #include <thread>
 
 #include "ballflow/sdk.hpp"
+#include "list.hpp"
 
 namespace toy {
-
-template <class T>
-struct List {  // the smallest shared array
-  using value_type = T;
-  List() = default;
-  List(std::vector<T> v) : owner(std::make_shared<std::vector<T>>(std::move(v))) {
-    begin = std::static_pointer_cast<std::vector<T>>(owner)->data();
-    count = std::static_pointer_cast<std::vector<T>>(owner)->size();
-  }
-  List(const T* d, std::size_t n, std::shared_ptr<const void> o) : begin(d), count(n), keeper(std::move(o)) {}
-  const T* data() const { return begin; }
-  std::size_t size() const { return count; }
-  const T* begin = nullptr;
-  std::size_t count = 0;
-  std::shared_ptr<void> owner;
-  std::shared_ptr<const void> keeper;
-};
 
 struct Numbers {
   List<double> values;
@@ -289,12 +273,32 @@ struct Babble {
   }
 };
 
+/// Puts lists one behind the other.
+struct Concat {
+  InList<Numbers> lists;
+  In<Numbers> last;
+  Out<Numbers> all;
+  static void declare(NodeDecl<Concat>& d) {
+    d.id("Concat", 1).summary("Puts lists one behind the other.");
+    d.input("lists", &Concat::lists).doc("in this order");
+    d.input("last", &Concat::last).optional().doc("behind them");
+    d.output("all", &Concat::all).doc("all numbers");
+  }
+  void run(RunContext&) {
+    std::vector<double> v;
+    for (const Numbers& list : lists)
+      v.insert(v.end(), list.values.data(), list.values.data() + list.values.size());
+    if (last) v.insert(v.end(), last->values.data(), last->values.data() + last->values.size());
+    all = Numbers{std::move(v)};
+  }
+};
+
 const bf_plugin& plugin() {
   static const bf_plugin* const plugin = detail::keep_plugin(
       "toy", "1",
       [] {
         return node_entries<Source, Add, Round, Slow, Fail, Step, Noisy, Threads, Busy, Negative, Heavy,
-                            FromFile, Babble>();
+                            FromFile, Babble, Concat>();
       },
       [] { return type_entries<Numbers>(); });
   return *plugin;

@@ -1,11 +1,13 @@
 // A plugin inside the test: small nodes whose executions are counted. Compiled once, in run_nodes.cpp,
 // because each file that instantiates them takes a quarter of a minute.
 //
-//   Source   value, count -> numbers         Add      a [, b] -> sum             Round   numbers -> rounded
-//   Slow     numbers, seconds -> numbers     Fail     always                     Step    numbers, by, fail_at
-//   -> numbers Noisy    another result each time        Threads  the number of threads      Busy    40 ms of
-//   CPU time Negative an output that its type forbids Heavy    says that it needs 60 B    FromFile  the
-//   number in a file Babble   messages that are no text
+//   Source    value, count -> numbers            Add       a [, b] -> sum
+//   Round     numbers -> rounded                 Concat    lists [, last] -> all, a port that takes a list
+//   Slow      numbers, seconds -> numbers        Fail      always
+//   Step      numbers, by, fail_at -> numbers    Noisy     another result each time
+//   Threads   the number of threads              Busy      40 ms of CPU time
+//   Negative  an output that its type forbids    Heavy     says that it needs 60 B
+//   FromFile  the number in a file               Babble    messages that are no text
 #pragma once
 
 #include <atomic>
