@@ -311,6 +311,7 @@ void AnyNodeDecl::hand_over(const void* node, const bf_run& raw) const {
 }
 
 int AnyNodeDecl::run(const bf_run& raw) const noexcept {
+  if (raw.struct_size < BF_RUN_MIN_SIZE) return BF_FAILED;  // fail() may be what is missing
   try {
     const std::unique_ptr<void, void (*)(void*)> node(operations_.make(), operations_.destroy);
     RunContext context(raw);
