@@ -169,7 +169,9 @@ TEST_F(GivenTest, what_is_wrong_with_an_artifact_parameter_is_said_where_it_is) 
     try {
       parse_graph(text, folder.file("graph.json"), registry, sets, {}, {}, shelf.find());
     } catch (const GraphError& error) {
-      return error.findings().at(0).message;
+      for (const Diagnostic& finding : error.findings()) {
+        if (finding.severity == Diagnostic::Severity::error) return finding.message;
+      }
     }
     return std::string();
   };
