@@ -44,8 +44,8 @@ std::unique_ptr<IpSolver> make_lp_solve();
 /// COIN-OR branch and cut, one thread: for problems of some thousand rows.
 std::unique_ptr<IpSolver> make_cbc();
 
-/// Versions of the libraries that run, which need not be those of the headers: "5.5.2.5", "libCbc.so.3.10.8" (its
-/// release 2.10.8 tells no other version), "1.17.6" and "libCgl.so.1.10.3".
+/// Versions of the libraries that run, which need not be those of the headers: "5.5.2.5", "libCbc.so.3.10.8"
+/// (its release 2.10.8 tells no other version), "1.17.6" and "libCgl.so.1.10.3".
 std::string lp_solve_version();
 std::string cbc_version();
 std::string clp_version();
