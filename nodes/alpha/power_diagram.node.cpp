@@ -22,8 +22,9 @@ struct PowerDiagram {
     d.doc(
         "The regular triangulation of the balls with the neighbours of every cell, and which cells and "
         "facets are "
-        "in the dual complex of the union, decided exactly. AlphaShape, MedialAxis, UnionTopology and "
-        "TopologyRepair take it instead of triangulating again. Accepts and refuses what AlphaShape does; of "
+        "in the dual complex of the union, decided exactly. AlphaShape, MedialAxis, UnionMeasure, "
+        "UnionTopology and TopologyRepair take it instead of triangulating again. Accepts and refuses what "
+        "AlphaShape does; of "
         "balls "
         "with one center the largest counts, the first of equal ones.");
     d.avoid_when("only one node looks at the union: it can take the balls themselves.");

@@ -11,6 +11,7 @@
 
 #include "base/arctangent.hpp"
 #include "base/lists.hpp"
+#include "power/power_diagram.hpp"
 #include "power/union_vertices.hpp"
 
 namespace ballflow::geometry {
@@ -99,9 +100,10 @@ class Measure {
     if (!box.empty()) origin_ = 0.5 * (box.lower + box.upper);
   }
 
-  MassProperties run() {
+  /// `diagram` may be null.
+  MassProperties run(const PowerDiagram* diagram) {
     count_links();
-    find_corners();
+    find_corners(diagram);
     find_arcs();
     return sum();
   }
@@ -129,9 +131,10 @@ class Measure {
 
   /// The corners of the patches, and the exterior angles there: a patch lies outside of two circles, so the
   /// angle is that between their normals.
-  void find_corners() {
+  void find_corners(const PowerDiagram* diagram) {
     PartMonitor part(monitor_, 0, 0.4);
-    const std::vector<ExposedSide> sides = exposed_sides(complex_, part);
+    const std::vector<ExposedSide> sides =
+        diagram != nullptr ? exposed_sides(complex_, *diagram, part) : exposed_sides(complex_, part);
     corners_.resize(complex_.triangles.size());
     Lookout look(monitor_);
     for (const ExposedSide& side : sides) {
@@ -319,7 +322,13 @@ class Measure {
 }  // namespace
 
 MassProperties union_measure(const SimplicialComplex& complex, Monitor& monitor) {
-  return Measure(complex, monitor).run();
+  return Measure(complex, monitor).run(nullptr);
+}
+
+MassProperties union_measure(const SimplicialComplex& complex, const PowerDiagram& diagram,
+                             Monitor& monitor) {
+  check_diagram_of(diagram, complex);
+  return Measure(complex, monitor).run(&diagram);
 }
 
 }  // namespace ballflow::geometry

@@ -18,6 +18,7 @@
 
 #include "base/monitor.hpp"
 #include "types/mass_properties.hpp"
+#include "types/power_diagram.hpp"
 #include "types/simplicial_complex.hpp"
 
 namespace ballflow::geometry {
@@ -28,5 +29,9 @@ namespace ballflow::geometry {
 /// complex. Accepts every complex with its invariants: empty, flat, touching balls, radius 0, cavities, many
 /// components. Time is linear in the size of the complex.
 MassProperties union_measure(const SimplicialComplex& complex, Monitor& monitor = no_monitor());
+/// The same, bit by bit, where the power diagram is at hand that the complex was read off. InputError when it
+/// is another one.
+MassProperties union_measure(const SimplicialComplex& complex, const PowerDiagram& diagram,
+                             Monitor& monitor = no_monitor());
 
 }  // namespace ballflow::geometry

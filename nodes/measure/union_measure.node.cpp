@@ -3,13 +3,14 @@
 #include <ballflow/sdk.hpp>
 
 #include "exact/cgal_version.hpp"
-#include "types/artifact_types.hpp"
+#include "types/power_diagram_type.hpp"
 
 namespace ballflow::nodes {
 namespace {
 
 struct UnionMeasure {
   In<geometry::SimplicialComplex> complex;
+  In<geometry::PowerDiagram> diagram;
   Out<geometry::MassProperties> measure;
 
   static void declare(NodeDecl<UnionMeasure>& d) {
@@ -24,11 +25,15 @@ struct UnionMeasure {
     d.library("CGAL", geometry::cgal_version());
     d.memory(1 << 20, 10);
     d.input("complex", &UnionMeasure::complex).doc("the alpha-shape of the balls (node AlphaShape)");
+    d.input("diagram", &UnionMeasure::diagram)
+        .optional()
+        .doc("the power diagram that the alpha-shape was read off: nothing is searched in it again");
     d.output("measure", &UnionMeasure::measure).doc("at density 1, in powers of model units");
   }
   void run(RunContext& context) {
     ContextMonitor monitor(context);
-    measure = geometry::union_measure(*complex, monitor);
+    measure = diagram ? geometry::union_measure(*complex, *diagram, monitor)
+                      : geometry::union_measure(*complex, monitor);
   }
 };
 

@@ -11,9 +11,9 @@
 
 namespace ballflow::geometry {
 
-/// Components, tunnels and cavities of the union of the balls: those of alpha_shape(), in about two thirds of
-/// its time. Components are those of the edges of the dual complex, cavities by Alexander duality components
-/// of cells outside of it, and tunnels follow from the Euler characteristic.
+/// Components, tunnels and cavities of the union of the balls: those of alpha_shape(), without its lists.
+/// Components are those of the edges of the dual complex, cavities by Alexander duality components of cells
+/// outside of it, and tunnels follow from the Euler characteristic.
 std::array<std::int64_t, 3> union_betti(const PowerDiagram& diagram, Monitor& monitor);
 /// The same for balls whose power diagram nobody wants: it is not put in order. Accepts and refuses what
 /// alpha_shape does.

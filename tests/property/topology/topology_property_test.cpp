@@ -93,7 +93,8 @@ TEST_P(EveryModel, keeps_its_topology_from_the_surface_to_the_medial_axis) {
   const auto counted = [](const Balls& balls, TopologyStage stage) {
     return union_row(balls, {stage}, no_monitor());
   };
-  const TopologyTable surface = solid_row(p.mesh, no_monitor()), inner = counted(p.inner, TopologyStage::inner),
+  const TopologyTable surface = solid_row(p.mesh, no_monitor()),
+                      inner = counted(p.inner, TopologyStage::inner),
                       enlarged = counted(p.enlarged, TopologyStage::enlarged),
                       chosen = counted(kept, TopologyStage::kept);
   const TopologyTable table = topology({&surface, &inner, &enlarged, &chosen, &complex, &axis}, no_monitor());

@@ -256,5 +256,21 @@ TEST(union_measure, can_be_cancelled) {
   EXPECT_THROW(union_measure(complex, stop), Cancelled);
 }
 
+TEST(union_measure, is_the_same_bit_by_bit_with_the_power_diagram_at_hand) {
+  std::mt19937_64 random(23);
+  for (int round = 0; round < 6; ++round) {
+    const Balls balls = balls_of(random_list(random, 40, 0.1, 0.3));
+    const PowerDiagram diagram = power_diagram(balls, {}, no_monitor());
+    const SimplicialComplex complex = alpha_shape(diagram, no_monitor());
+    const MassProperties searched = union_measure(complex), walked = union_measure(complex, diagram);
+    EXPECT_EQ(walked.volume, searched.volume);
+    EXPECT_EQ(walked.area, searched.area);
+    EXPECT_EQ(walked.center_of_mass, searched.center_of_mass);
+    EXPECT_EQ(walked.inertia, searched.inertia);
+    EXPECT_THROW(union_measure(complex, power_diagram(balls, {AlphaTolerance::polar}, no_monitor())),
+                 InputError);
+  }
+}
+
 }  // namespace
 }  // namespace ballflow::geometry
