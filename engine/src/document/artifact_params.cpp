@@ -1,5 +1,6 @@
+#include "document/artifact_params.hpp"
+
 #include "base/quote.hpp"
-#include "document/expand.hpp"
 #include "plugin/param_value.hpp"
 
 namespace ballflow {
@@ -7,9 +8,9 @@ namespace ballflow {
 namespace {
 
 /// The last setting of a parameter of the top graph; null when there is none.
-const Setting* setting_of(const std::vector<const Setting*>& settings, const std::string& name) {
-  const Setting* last = nullptr;
-  for (const Setting* setting : settings) {
+const PlacedSetting* setting_of(const std::vector<const PlacedSetting*>& settings, const std::string& name) {
+  const PlacedSetting* last = nullptr;
+  for (const PlacedSetting* setting : settings) {
     if (setting_target(setting->name) == "." + name) last = setting;
   }
   return last;
@@ -18,14 +19,14 @@ const Setting* setting_of(const std::vector<const Setting*>& settings, const std
 }  // namespace
 
 std::map<std::string, ArtifactPtr> find_given(const GraphFile& top, const Registry& registry,
-                                              const std::vector<const Setting*>& settings,
+                                              const std::vector<const PlacedSetting*>& settings,
                                               const std::map<std::string, ArtifactPtr>& given,
                                               const FindArtifact& find,
                                               std::map<std::string, ArtifactPtr>& found, Findings& findings) {
   std::map<std::string, ArtifactPtr> all = given;
   for (const GraphParam& param : top.params) {
     if (param.decl.kind != ParamKind::artifact || param.broken || given.contains(param.decl.name)) continue;
-    const Setting* setting = setting_of(settings, param.decl.name);
+    const PlacedSetting* setting = setting_of(settings, param.decl.name);
     const std::string what = "parameter " + in_quotes(param.decl.name);
     const auto complain = [&](const std::string& message, const std::string& hint) {
       if (setting != nullptr) {

@@ -1,12 +1,12 @@
-// Edges of the expanded graph: which output each input reads, whether the types agree, in which order nodes
-// can run.
-#include <algorithm>
-#include <queue>
-#include <set>
+// Which output each input reads, and whether the types agree.
+#include "document/connect.hpp"
 
-#include "ballflow/graph.hpp"
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "ballflow/text.hpp"
 #include "base/quote.hpp"
-#include "document/expand.hpp"
 
 namespace ballflow {
 
@@ -15,8 +15,8 @@ namespace {
 class Connector {
  public:
   Connector(const Expansion& expansion, const Registry& registry,
-            const std::map<std::string, ArtifactPtr>& given, Findings& findings)
-      : expansion_(expansion), given_(given), findings_(findings) {
+            const std::map<std::string, ArtifactPtr>& given, References& references, Findings& findings)
+      : expansion_(expansion), given_(given), references_(references), findings_(findings) {
     for (const auto& [id, type] : registry.types()) type_names_.push_back(id);
     for (const auto& [id, node] : registry.nodes()) {
       for (const std::vector<PortDecl>* ports : {&node.inputs, &node.outputs}) {
@@ -27,46 +27,21 @@ class Connector {
     }
     std::sort(type_names_.begin(), type_names_.end());
     type_names_.erase(std::unique(type_names_.begin(), type_names_.end()), type_names_.end());
-    resolved_.resize(expansion.scopes.size());
-    for (std::size_t i = 0; i < expansion.scopes.size(); ++i)
-      resolved_[i].resize(expansion.scopes[i].file->outputs.size());
   }
 
-  Dag run() {
+  Edges run() {
     check_interfaces();
     check_given();
     edges_.resize(expansion_.leaves.size());
     for (std::size_t i = 0; i < expansion_.scopes.size(); ++i) connect_nodes(i);
     for (const GraphOutput& output : top().outputs) check_reference(0, output.from);
     for (const LoopBody& loop : expansion_.loops) check_states(loop.scope);
-    const std::vector<std::size_t> order = topological_order();
-    if (findings_.failed()) return {};
-    return build(order);
+    return std::move(edges_);
   }
 
  private:
-  const GraphFile& top() const { return *expansion_.scopes[0].file; }
-  const GraphFile& file_of(std::size_t scope) const { return *expansion_.scopes[scope].file; }
-
-  /// Whether the scope is the body of a loop; its inputs then come from the loop.
-  bool is_body(std::size_t scope) const {
-    const std::size_t loop = expansion_.scopes[scope].loop;
-    return loop != nowhere && expansion_.loops[loop].scope == scope;
-  }
-
-  /// What a reference leads to: an output port, an input of the loop around it, an artifact from outside, an
-  /// input that is not connected, or something reported.
-  struct Target {
-    enum class Kind { broken, unconnected, leaf, loop_input, given };
-    Kind kind = Kind::broken;
-    std::size_t leaf = 0;
-    std::string port;
-  };
-  struct Memo {
-    enum class State { fresh, visiting, done };
-    State state = State::fresh;
-    Target target;
-  };
+  const GraphFile& top() const { return expansion_.top(); }
+  const GraphFile& file_of(std::size_t scope) const { return expansion_.file_of(scope); }
 
   struct PortType {
     std::string id;
@@ -198,8 +173,8 @@ class Connector {
           const auto port = std::find_if(kind.inputs().begin(), kind.inputs().end(),
                                          [&](const PortDecl& decl) { return decl.name == input.port; });
           if (port == kind.inputs().end()) continue;
-          const Target target = resolve(scope, &input.from);
-          const bool outside = target.kind == Target::Kind::loop_input || target.kind == Target::Kind::given;
+          const Target target = references_.resolve(scope, input.from);
+          const bool outside = target.kind == Target::Kind::from_loop || target.kind == Target::Kind::given;
           if (!outside && target.kind != Target::Kind::leaf) continue;
           // What is not connected after all (an optional input of a subgraph) leaves no gap in a list.
           if (input.index.value_or(0) == 0) places = 0;
@@ -222,10 +197,7 @@ class Connector {
     for (const GraphOutput& output : file.outputs) {
       if (scope != 0) check_reference(scope, output.from);
     }
-    // Also outputs that nobody reads: a subgraph that only passes values around may run in a circle.
-    for (std::size_t i = 0; i < file.outputs.size(); ++i) {
-      if (resolved_[scope][i].state == Memo::State::fresh) resolve_output(scope, i);
-    }
+    references_.resolve_outputs(scope);
   }
 
   /// Every output of a loop body must fit the input of its name.
@@ -347,279 +319,28 @@ class Connector {
     return {};
   }
 
-  Target resolve_output(std::size_t scope, std::size_t output) {
-    Reference reference;
-    reference.kind = Reference::Kind::node;
-    if (scope == 0 || is_body(scope)) return resolve(scope, &file_of(scope).outputs[output].from);
-    reference.index = expansion_.scopes[scope].parent_node;
-    reference.port = file_of(scope).outputs[output].name;
-    return resolve(expansion_.scopes[scope].parent, &reference);
-  }
-
-  /// Follows a reference through subgraph outputs (down) and inputs (up) to the port that produces it.
-  Target resolve(std::size_t scope, const Reference* reference) {
-    std::vector<Memo*> visited;
-    std::vector<std::string> trail;
-    Target target;
-    while (true) {
-      if (reference->kind == Reference::Kind::broken) break;
-      const Scope& here = expansion_.scopes[scope];
-      if (reference->kind == Reference::Kind::input) {
-        if (here.parent == nowhere) {
-          const bool is_given = given_.contains(reference->port);
-          target = {is_given ? Target::Kind::given : Target::Kind::unconnected, 0, reference->port};
-          break;
-        }
-        const GraphNode& inclusion = file_of(here.parent).nodes[here.parent_node];
-        const GraphNode::Input* binding = inclusion.input(reference->port);
-        if (binding == nullptr) {
-          target.kind = Target::Kind::unconnected;
-          break;
-        }
-        if (is_body(scope)) {
-          target.kind = Target::Kind::loop_input;
-          target.port = reference->port;
-          break;
-        }
-        reference = &binding->from;
-        scope = here.parent;
-        continue;
-      }
-      const Scope::Slot slot = here.slots[reference->index];
-      if (slot.kind == Scope::Slot::Kind::broken) break;
-      if (slot.kind == Scope::Slot::Kind::leaf) {
-        if (expansion_.leaves[slot.index].kind.output(reference->port) != nullptr) {
-          target = {Target::Kind::leaf, slot.index, reference->port};
-        }
-        break;
-      }
-      const auto output = file_of(slot.index).output_index.find(reference->port);
-      if (output == file_of(slot.index).output_index.end()) break;
-      Memo& memo = resolved_[slot.index][output->second];
-      const std::string name = expansion_.scopes[slot.index].path + "." + reference->port;
-      if (memo.state == Memo::State::done) {
-        target = memo.target;
-        break;
-      }
-      if (memo.state == Memo::State::visiting) {
-        std::string cycle = name;
-        for (auto back = trail.rbegin(); back != trail.rend(); ++back) {
-          cycle += " -> " + *back;
-          if (*back == name) break;
-        }
-        findings_.error(file_of(slot.index), file_of(slot.index).outputs[output->second].from.offset,
-                        "cycle without a node in it: " + printable(cycle), "let the value come from a node");
-        break;
-      }
-      memo.state = Memo::State::visiting;
-      visited.push_back(&memo);
-      trail.push_back(name);
-      scope = slot.index;
-      reference = &file_of(scope).outputs[output->second].from;
-    }
-    for (Memo* memo : visited) *memo = {Memo::State::done, target};
-    return target;
-  }
-
-  /// Kahn's algorithm over the leaves, smallest path first. Cycles are reported, each once.
-  std::vector<std::size_t> topological_order() {
-    const std::size_t n = expansion_.leaves.size();
-    std::vector<std::size_t> by_path(n), rank(n), missing(n, 0), order;
-    for (std::size_t i = 0; i < n; ++i) by_path[i] = i;
-    std::sort(by_path.begin(), by_path.end(), [&](std::size_t a, std::size_t b) {
-      return expansion_.leaves[a].path < expansion_.leaves[b].path;
-    });
-    for (std::size_t i = 0; i < n; ++i) rank[by_path[i]] = i;
-    std::vector<std::vector<std::size_t>> consumers(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      for (const auto& [port, edge] : edges_[i]) {
-        if (edge.node == loop_input) continue;
-        ++missing[i];
-        consumers[edge.node].push_back(i);
-      }
-    }
-    std::priority_queue<std::size_t, std::vector<std::size_t>, std::greater<>> ready;  // of ranks
-    for (std::size_t i = 0; i < n; ++i) {
-      if (missing[i] == 0) ready.push(rank[i]);
-    }
-    std::vector<bool> done(n, false);
-    const auto drain = [&] {
-      while (!ready.empty()) {
-        const std::size_t leaf = by_path[ready.top()];
-        ready.pop();
-        done[leaf] = true;
-        order.push_back(leaf);
-        for (const std::size_t consumer : consumers[leaf]) {
-          if (--missing[consumer] == 0 && !done[consumer]) ready.push(rank[consumer]);
-        }
-      }
-    };
-    drain();
-    std::vector<std::size_t> position(n, nowhere);
-    for (std::size_t first = 0; first < n; ++first) {
-      if (done[by_path[first]]) continue;
-      // Every node that is left waits for one that is left: going against the edges ends in a cycle.
-      std::vector<std::size_t> walk;
-      std::size_t leaf = by_path[first];
-      while (position[leaf] == nowhere) {
-        position[leaf] = walk.size();
-        walk.push_back(leaf);
-        for (const auto& [port, edge] : edges_[leaf]) {
-          if (edge.node == loop_input || done[edge.node]) continue;
-          leaf = edge.node;
-          break;
-        }
-      }
-      std::vector<std::size_t> cycle(walk.begin() + static_cast<std::ptrdiff_t>(position[leaf]), walk.end());
-      for (const std::size_t passed : walk) position[passed] = nowhere;
-      report_cycle(cycle, rank);
-      for (const std::size_t member : cycle) done[member] = true;
-      for (const std::size_t member : cycle) {
-        for (const std::size_t consumer : consumers[member]) {
-          if (--missing[consumer] == 0 && !done[consumer]) ready.push(rank[consumer]);
-        }
-      }
-      drain();
-    }
-    return order;
-  }
-
-  /// `cycle` runs against the edges.
-  void report_cycle(std::vector<std::size_t> cycle, const std::vector<std::size_t>& rank) {
-    std::reverse(cycle.begin(), cycle.end());
-    const auto smallest = std::min_element(cycle.begin(), cycle.end(),
-                                           [&](std::size_t a, std::size_t b) { return rank[a] < rank[b]; });
-    std::rotate(cycle.begin(), smallest, cycle.end());
-    std::string text;
-    for (const std::size_t leaf : cycle) text += expansion_.leaves[leaf].path + " -> ";
-    text += expansion_.leaves[cycle[0]].path;
-    const Leaf& leaf = expansion_.leaves[cycle[0]];
-    const GraphNode& node = file_of(leaf.scope).nodes[leaf.node];
-    Offset offset = node.offset;
-    for (const auto& [port, edge] : edges_[cycle[0]]) {
-      if (edge.node == cycle.back()) offset = node.input(std::string(port_of_slot(port)))->from.offset;
-    }
-    findings_.error(file_of(leaf.scope), offset, "cycle: " + printable(text), "remove one of these edges");
-  }
-
-  Dag build(const std::vector<std::size_t>& order) {
-    Dag dag;
-    dag.file = top().source.file();
-    dag.doc = top().doc;
-    for (std::size_t i = 0; i < top().params.size(); ++i)
-      dag.params[top().params[i].decl.name] = *expansion_.scopes[0].params[i];
-    const std::map<std::string, std::size_t> given = add_given(dag);
-    std::vector<std::size_t> place(expansion_.leaves.size());  // in the graph or the loop body around it
-    for (const std::size_t i : order) {
-      const Leaf& leaf = expansion_.leaves[i];
-      const std::size_t around = expansion_.scopes[leaf.scope].loop;
-      Dag& home = around == nowhere ? dag : expansion_.loops[around].loop->body;
-      place[i] = home.nodes.size();
-      DagNode& node = home.nodes.emplace_back(DagNode{leaf.path, leaf.kind});
-      node.params = leaf.params;
-      for (const auto& [port, edge] : edges_[i]) {
-        if (edge.node != loop_input) {
-          node.inputs[port] = {place[edge.node], edge.port};
-        } else {
-          node.inputs[port] = around == nowhere ? EdgeRef{given.at(edge.port), edge.port} : edge;
-        }
-      }
-      const GraphFile& file = file_of(leaf.scope);
-      const json_text::Position position = file.source.position(file.nodes[leaf.node].offset);
-      node.place = {file.source.file(), position.line, position.column,
-                    "/nodes/" + json_text::escape_pointer(file.nodes[leaf.node].name)};
-    }
-    add_outputs(dag, 0, place, given);
-    add_interfaces(dag, place);
-    for (std::size_t i = expansion_.loops.size(); i-- > 0;)  // inner loops first
-      finish(*expansion_.loops[i].loop, expansion_.loops[i].scope, place);
-    return dag;
-  }
-
-  /// Artifacts from outside come first: they have no inputs.
-  std::map<std::string, std::size_t> add_given(Dag& dag) const {
-    std::map<std::string, std::size_t> place;
-    for (const auto& [name, artifact] : given_) {
-      PortDecl port;
-      port.name = name;
-      port.type = artifact->type();
-      port.type_version = artifact->version();
-      place[name] = dag.nodes.size();
-      dag.nodes.push_back({"inputs/" + name, Given{{port}, artifact}});  // no node is named "inputs"
-    }
-    return place;
-  }
-
-  void add_outputs(Dag& dag, std::size_t scope, const std::vector<std::size_t>& place,
-                   const std::map<std::string, std::size_t>& given = {}) {
-    for (const GraphOutput& output : file_of(scope).outputs) {
-      const Target target = resolve(scope, &output.from);
-      if (target.kind == Target::Kind::leaf)
-        dag.outputs.push_back({output.name, output.doc, {place[target.leaf], target.port}});
-      if (target.kind == Target::Kind::loop_input)
-        dag.outputs.push_back({output.name, output.doc, {loop_input, target.port}});
-      if (target.kind == Target::Kind::given)
-        dag.outputs.push_back({output.name, output.doc, {given.at(target.port), target.port}});
-    }
-  }
-
-  void add_interfaces(Dag& dag, const std::vector<std::size_t>& place) {
-    for (std::size_t scope = 1; scope < expansion_.scopes.size(); ++scope) {
-      if (expansion_.scopes[scope].loop != nowhere) continue;
-      for (const GraphOutput& output : file_of(scope).outputs) {
-        const Target target = resolve(scope, &output.from);
-        if (target.kind != Target::Kind::leaf) continue;
-        dag.interfaces.push_back({expansion_.scopes[scope].path + "." + output.name,
-                                  output.doc,
-                                  {place[target.leaf], target.port}});
-      }
-    }
-  }
-
-  /// Drops what no state needs, and sums up what the nodes of the body declare; they run one at a time.
-  void finish(Loop& loop, std::size_t scope, const std::vector<std::size_t>& place) {
-    Dag& body = loop.body;
-    body.file = file_of(scope).source.file();
-    body.doc = file_of(scope).doc;
-    for (std::size_t i = 0; i < file_of(scope).params.size(); ++i)
-      body.params[file_of(scope).params[i].decl.name] = *expansion_.scopes[scope].params[i];
-    add_outputs(body, scope, place);
-    const std::vector<bool> needed = needed_nodes(body);
-    std::vector<std::size_t> number(needed.size());
-    std::vector<DagNode> nodes;
-    for (std::size_t i = 0; i < needed.size(); ++i) {
-      if (!needed[i]) continue;
-      number[i] = nodes.size();
-      nodes.push_back(std::move(body.nodes[i]));
-      for (auto& [port, edge] : nodes.back().inputs) {
-        if (edge.node != loop_input) edge.node = number[edge.node];
-      }
-    }
-    body.nodes = std::move(nodes);
-    for (DagOutput& output : body.outputs) {
-      if (output.from.node != loop_input) output.from.node = number[output.from.node];
-    }
-    for (const DagNode& node : body.nodes) {
-      const MemoryNeed need = node.kind.memory();
-      loop.uses_seed = loop.uses_seed || node.kind.uses_seed();
-      loop.memory.fixed = std::max(loop.memory.fixed, need.fixed);
-      loop.memory.per_input_byte = std::max(loop.memory.per_input_byte, need.per_input_byte);
-    }
-  }
-
   const Expansion& expansion_;
   const std::map<std::string, ArtifactPtr>& given_;
+  References& references_;
   Findings& findings_;
   std::vector<std::string> type_names_;
-  std::vector<std::vector<Memo>> resolved_;            // by scope and output
-  std::vector<std::map<std::string, EdgeRef>> edges_;  // by leaf and input port; nodes are leaves
+  Edges edges_;
 };
 
 }  // namespace
 
+Edges connect_leaves(const Expansion& expansion, const Registry& registry,
+                     const std::map<std::string, ArtifactPtr>& given, References& references,
+                     Findings& findings) {
+  return Connector(expansion, registry, given, references, findings).run();
+}
+
 Dag connect(const Expansion& expansion, const Registry& registry,
             const std::map<std::string, ArtifactPtr>& given, Findings& findings) {
-  return Connector(expansion, registry, given, findings).run();
+  References references(expansion, given, findings);
+  const Edges edges = connect_leaves(expansion, registry, given, references, findings);
+  const std::vector<std::size_t> order = order_leaves(expansion, edges, findings);
+  return findings.failed() ? Dag() : build_dag(expansion, edges, order, given, references);
 }
 
 }  // namespace ballflow

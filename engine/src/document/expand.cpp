@@ -1,59 +1,18 @@
 #include "document/expand.hpp"
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <utility>
 
 #include "base/quote.hpp"
-#include "document/until.hpp"
+#include "document/loop_body.hpp"
 #include "plugin/param_value.hpp"
 
 namespace ballflow {
-
-namespace fs = std::filesystem;
 
 namespace {
 
 /// Thrown when a limit is reached; its finding was added.
 struct Abandoned {};
-
-std::string canonical(const std::string& path) {
-  std::error_code error;
-  const fs::path result = fs::weakly_canonical(path, error);
-  return error ? path : result.string();
-}
-
-/// Settings by "path.param" (".param" at the top), with a note which of them found their parameter.
-class Settings {
- public:
-  explicit Settings(const std::vector<const Setting*>& settings)
-      : all_(settings), used_(settings.size(), false) {
-    for (std::size_t i = 0; i < all_.size(); ++i) by_name_[setting_target(all_[i]->name)].push_back(i);
-  }
-
-  /// The setting of a parameter, if there is one; the last wins.
-  const Setting* find(const std::string& path, const std::string& param) {
-    if (all_.empty()) return nullptr;
-    const auto found = by_name_.find(path + "." + param);
-    if (found == by_name_.end()) return nullptr;
-    for (const std::size_t i : found->second) used_[i] = true;
-    return all_[found->second.back()];
-  }
-
-  std::vector<const Setting*> unused() const {
-    std::vector<const Setting*> result;
-    for (std::size_t i = 0; i < all_.size(); ++i) {
-      if (!used_[i]) result.push_back(all_[i]);
-    }
-    return result;
-  }
-
- private:
-  const std::vector<const Setting*>& all_;
-  std::map<std::string, std::vector<std::size_t>> by_name_;
-  std::vector<bool> used_;
-};
 
 std::vector<std::string> choice_names(const ParamDecl& param) {
   std::vector<std::string> names;
@@ -72,14 +31,14 @@ std::string param_hint(const ParamDecl& param, const Json& value) {
 
 class Expander {
  public:
-  Expander(GraphFiles& files, const Registry& registry, const std::vector<const Setting*>& settings,
+  Expander(GraphFiles& files, const Registry& registry, const std::vector<const PlacedSetting*>& settings,
            Expansion& expansion, Findings& findings)
       : files_(files), registry_(registry), settings_(settings), expansion_(expansion), findings_(findings) {
     for (const auto& [id, node] : registry.nodes()) type_names_.push_back(id);
   }
 
   void run(const GraphFile& file) {
-    chain_.push_back({canonical(file.source.file()), file.source.file()});
+    files_.enter(file);
     std::vector<std::optional<Json>> params;
     for (const GraphParam& param : file.params) {
       if (param.decl.kind == ParamKind::artifact) {  // find_given looks for its value
@@ -87,7 +46,7 @@ class Expander {
         params.emplace_back(nullptr);
         continue;
       }
-      if (const Setting* setting = settings_.find("", param.decl.name)) {
+      if (const PlacedSetting* setting = settings_.find("", param.decl.name)) {
         params.push_back(param.broken ? std::nullopt : value_of(*setting, param.decl));
       } else if (param.broken) {
         params.push_back(std::nullopt);
@@ -100,15 +59,12 @@ class Expander {
       }
     }
     instantiate(file, nowhere, nowhere, "", std::move(params));
+    files_.leave();
     report_unused_settings();
   }
 
  private:
-  struct ChainLink {
-    std::string key, name;
-  };
-
-  std::optional<Json> value_of(const Setting& setting, const ParamDecl& param) {
+  std::optional<Json> value_of(const PlacedSetting& setting, const ParamDecl& param) {
     Json value;
     if (setting.value) {
       value = *setting.value;
@@ -136,7 +92,7 @@ class Expander {
   std::optional<Json> given_value(const Scope& scope, const GraphNode::Param* written,
                                   const std::string& path, const ParamDecl& param, bool& given) {
     given = true;
-    if (const Setting* setting = settings_.find(path, param.name)) return value_of(*setting, param);
+    if (const PlacedSetting* setting = settings_.find(path, param.name)) return value_of(*setting, param);
     given = written != nullptr;
     if (!given) return std::nullopt;
     const std::optional<Json> value = written->value.evaluate(scope.params);
@@ -228,12 +184,12 @@ class Expander {
   Scope::Slot add(std::size_t scope_index, std::size_t node_index, const std::string& path,
                   const GraphNode::Subgraph& subgraph) {
     const Scope& scope = expansion_.scopes[scope_index];
-    const Included included = include(scope, subgraph.file, "\"graph\"");
-    if (included.file == nullptr) return {};
-    Params params = params_of(*included.file, scope, node_index, path, "subgraph", "subgraph");
-    chain_.push_back({included.key, included.file->source.file()});
-    const std::size_t inner = instantiate(*included.file, scope_index, node_index, path, std::move(params));
-    chain_.pop_back();
+    const GraphFile* const file = include(scope, subgraph.file, "\"graph\"");
+    if (file == nullptr) return {};
+    Params params = params_of(*file, scope, node_index, path, "subgraph", "subgraph");
+    files_.enter(*file);
+    const std::size_t inner = instantiate(*file, scope_index, node_index, path, std::move(params));
+    files_.leave();
     return {Scope::Slot::Kind::scope, inner};
   }
 
@@ -241,37 +197,28 @@ class Expander {
   Scope::Slot add(std::size_t scope_index, std::size_t node_index, const std::string& path,
                   const GraphNode::Loop& written) {
     const Scope& scope = expansion_.scopes[scope_index];
-    const Included included = include(scope, written.body, "\"loop\"");
-    if (included.file == nullptr) return {};
-    Params params = params_of(*included.file, scope, node_index, path, "loop", "loop body");
-    chain_.push_back({included.key, included.file->source.file()});
-    const Scope::Slot slot =
-        add_loop(*included.file, scope_index, node_index, path, written, std::move(params));
-    chain_.pop_back();
+    const GraphFile* const body = include(scope, written.body, "\"loop\"");
+    if (body == nullptr) return {};
+    Params params = params_of(*body, scope, node_index, path, "loop", "loop body");
+    files_.enter(*body);
+    const Scope::Slot slot = add_loop(*body, scope_index, node_index, path, written, std::move(params));
+    files_.leave();
     return slot;
   }
 
   /// A node that has no kind was reported.
   Scope::Slot add(std::size_t, std::size_t, const std::string&, const std::monostate&) { return {}; }
 
-  struct Included {
-    const GraphFile* file = nullptr;  // null when it cannot be used
-    std::string key;
-  };
   using Params = std::vector<std::optional<Json>>;
 
-  /// The file of a subgraph or of the body of a loop.
-  Included include(const Scope& scope, const Template& path, const char* field) {
-    Included included;
+  /// The file of a subgraph or of the body of a loop; null when it cannot be used.
+  const GraphFile* include(const Scope& scope, const Template& path, const char* field) {
     const std::optional<Json> name = path.evaluate(scope.params);
-    if (!name) return included;
-    if (name->is_string()) {
-      included.file = load(*scope.file, path.offset, name->get<std::string>(), included.key);
-    } else {
-      findings_.error(*scope.file, path.offset,
-                      field + std::string(" must be the path of a file, ") + described(*name));
-    }
-    return included;
+    if (!name) return nullptr;
+    if (name->is_string()) return files_.find(*scope.file, path.offset, name->get<std::string>(), findings_);
+    findings_.error(*scope.file, path.offset,
+                    field + std::string(" must be the path of a file, ") + described(*name));
+    return nullptr;
   }
 
   /// The parameters of a file that a node includes.
@@ -315,7 +262,7 @@ class Expander {
     const Scope& scope = expansion_.scopes[scope_index];
     const GraphNode& node = scope.file->nodes[node_index];
     const auto loop = std::make_shared<Loop>();
-    bool good = read_interface(*scope.file, node, written, body, *loop);
+    bool good = read_interface(*scope.file, node, written, body, registry_, *loop, findings_);
     Leaf leaf{path, scope_index, node_index, NodeKind(loop)};
     for (const ParamDecl& param : loop_params()) {
       bool given = false;
@@ -325,7 +272,9 @@ class Expander {
       if (value) leaf.params[param.name] = std::move(*value);
     }
     if (const auto until = leaf.params.find("until"); until != leaf.params.end() && !loop->outputs.empty())
-      good = read_until(scope, node, written, path, until->second.get<std::string>(), *loop) && good;
+      good = read_until(*scope.file, node, written, settings_.find(path, "until"),
+                        until->second.get<std::string>(), registry_, *loop, findings_) &&
+             good;
     if (good) {
       loop->max_iterations = leaf.params.at("max_iterations").get<std::int64_t>();
       loop->stop_at_limit = leaf.params.at("at_limit") == "stop";
@@ -339,174 +288,8 @@ class Expander {
     return {Scope::Slot::Kind::leaf, expansion_.leaves.size() - 1};
   }
 
-  /// The ports of a loop are those of its body.
-  bool read_interface(const GraphFile& file, const GraphNode& node, const GraphNode::Loop& written,
-                      const GraphFile& body, Loop& loop) {
-    const std::string owner = "loop " + in_quotes(node.name);
-    bool good = true;
-    for (const GraphParam& param : body.params) {
-      for (const ParamDecl& own : loop_params()) {
-        if (param.decl.name != own.name) continue;
-        findings_.error(body, param.offset,
-                        "the body of " + owner + " cannot have a parameter " + in_quotes(param.decl.name),
-                        "every loop has a parameter of that name; choose another one");
-        good = false;
-      }
-    }
-    const auto port = [&](const GraphInput& input) {
-      PortDecl decl;
-      decl.name = input.name;
-      decl.type = input.type;
-      const TypeDeclaration* type = registry_.type(input.type);
-      decl.type_version = type == nullptr ? 0 : type->version;
-      decl.optional = input.optional;
-      return decl;
-    };
-    for (const GraphInput& input : body.inputs) {
-      good = good && !input.broken;
-      loop.inputs.push_back(port(input));
-    }
-    if (body.outputs.empty()) {
-      findings_.error(file, written.body.offset,
-                      owner + " has no state: " + printable(body.source.file()) + " has no \"outputs\"",
-                      "a loop passes its outputs to its inputs of the same names");
-      good = false;
-    }
-    for (const GraphOutput& output : body.outputs) {
-      const auto input = body.input_index.find(output.name);
-      if (input == body.input_index.end()) {
-        findings_.error(body, output.offset,
-                        "output " + in_quotes(output.name) + " is a state of " + owner +
-                            ", but there is no input of that name",
-                        "a loop passes its outputs to its inputs: declare " + in_quotes(output.name) +
-                            " under \"inputs\" with the type of the output");
-        good = false;
-        continue;
-      }
-      const GraphInput& state = body.inputs[input->second];
-      if (state.optional && !state.broken) {
-        findings_.error(
-            body, state.offset,
-            "input " + in_quotes(state.name) + " is a state of " + owner + " and cannot be optional");
-        good = false;
-      }
-      loop.outputs.push_back(port(state));
-      loop.outputs.back().optional = false;
-    }
-    return good;
-  }
-
-  bool read_until(const Scope& scope, const GraphNode& node, const GraphNode::Loop& written,
-                  const std::string& path, const std::string& text, Loop& loop) {
-    std::vector<UntilProblem> problems;
-    loop.until = text;
-    loop.conditions = parse_until(
-        text, problems, [&](const Loop::Comparison& comparison, std::size_t state_at, std::size_t field_at) {
-          std::vector<std::string> known;
-          const auto state =
-              std::find_if(loop.outputs.begin(), loop.outputs.end(),
-                           [&](const PortDecl& port) { return port.name == comparison.state; });
-          if (state == loop.outputs.end()) {
-            for (const PortDecl& port : loop.outputs) known.push_back(port.name);
-            const std::string hint = did_you_mean(comparison.state, known);
-            problems.push_back(
-                {state_at, "loop " + in_quotes(node.name) + " has no state " + in_quotes(comparison.state),
-                 hint.empty() ? "states are " + listed(known) : hint});
-            return;
-          }
-          const TypeDeclaration* const type = registry_.type(state->type);
-          if (type == nullptr) return;  // reported where the body declares it
-          for (const auto& [field, doc] : type->summary) known.push_back(field);
-          if (std::find(known.begin(), known.end(), comparison.field) != known.end()) return;
-          const std::string hint = did_you_mean(comparison.field, known);
-          problems.push_back({field_at,
-                              "the summary of a " + type->id + " has no field " + in_quotes(comparison.field),
-                              !hint.empty()   ? hint
-                              : known.empty() ? "it has no fields"
-                                              : "fields are " + listed(known)});
-        });
-    for (UntilProblem& problem : problems) {
-      problem.message = "\"until\": " + problem.message;
-      if (const Setting* setting = settings_.find(path, "until")) {
-        findings_.add(about_setting(*setting, std::move(problem.message), std::move(problem.hint)));
-        continue;
-      }
-      // Inside the text when it stands in the file as it is, without escapes and parameters.
-      const std::size_t begin = written.param("until")->value.offset;
-      const bool verbatim = scope.file->source.content().substr(begin + 1, text.size()) == text &&
-                            scope.file->source.content().substr(begin + 1 + text.size(), 1) == "\"";
-      findings_.error(*scope.file, static_cast<Offset>(verbatim ? begin + 1 + problem.at : begin),
-                      std::move(problem.message), std::move(problem.hint));
-    }
-    return problems.empty();
-  }
-
-  /// The file that `includer` names, read at most once; null when it cannot be used.
-  const GraphFile* load(const GraphFile& includer, Offset offset, const std::string& name, std::string& key) {
-    const fs::path path = (fs::path(includer.source.file()).parent_path() / name).lexically_normal();
-    const auto [memo, fresh] = files_.canonical.try_emplace(path.string());
-    if (fresh) memo->second = canonical(path.string());
-    key = memo->second;
-    std::string cycle;
-    bool found_self = false;
-    for (const ChainLink& link : chain_) {
-      found_self = found_self || link.key == key;
-      if (found_self) cycle += link.name + " -> ";
-    }
-    if (found_self) {
-      findings_.error(includer, offset, "the graph includes itself: " + printable(cycle + path.string()),
-                      "subgraphs cannot be recursive");
-      return nullptr;
-    }
-    if (chain_.size() >= max_subgraph_depth) {
-      findings_.error(includer, offset,
-                      "subgraphs are nested deeper than " + std::to_string(max_subgraph_depth) + " levels");
-      return nullptr;
-    }
-    if (const auto known = files_.by_path.find(key); known != files_.by_path.end())
-      return known->second.get();
-    std::error_code error;
-    if (name.find('\0') != std::string::npos || !fs::is_regular_file(path, error)) {
-      findings_.error(includer, offset, "no subgraph file " + in_quotes(path.string()), neighbours(path));
-      return nullptr;
-    }
-    std::string text;
-    try {
-      text = read_text_file(path.string());
-    } catch (const Error& problem) {
-      findings_.error(includer, offset, problem.what(), problem.hint());
-      return nullptr;
-    }
-    files_.names.push_back(path.string());
-    std::unique_ptr<GraphFile> file =
-        read_graph_file(json_text::Source(path.string(), std::move(text)), files_.findings);
-    if (file != nullptr && (file->sweep || !file->maps.empty())) {
-      const Offset section = file->sweep ? file->sweep->offset : file->maps.front().offset;
-      files_.findings.warning(*file, section, "the sweep of a subgraph is not run",
-                              "only the top graph's counts; sweep over its parameters there");
-    }
-    return (files_.by_path[key] = std::move(file)).get();
-  }
-
-  /// Which graph files there are where one was looked for.
-  static std::string neighbours(const fs::path& path) {
-    std::vector<std::string> names;
-    std::error_code error;
-    for (fs::directory_iterator entry(path.parent_path().empty() ? fs::path(".") : path.parent_path(), error),
-         end;
-         !error && entry != end && names.size() < 1000; entry.increment(error)) {
-      if (entry->path().extension() == ".json") names.push_back(entry->path().filename().string());
-    }
-    const std::string folder = path.parent_path().empty() ? "." : printable(path.parent_path().string());
-    if (error) return "there is no folder " + in_quotes(folder);
-    if (names.empty()) return "folder " + in_quotes(folder) + " has no *.json files";
-    std::sort(names.begin(), names.end());
-    const std::string near = did_you_mean(path.filename().string(), names);
-    return near + (near.empty() ? "" : " ") + "folder " + in_quotes(folder) + " has " + listed(names);
-  }
-
   void report_unused_settings() {
-    const std::vector<const Setting*> unused = settings_.unused();
+    const std::vector<const PlacedSetting*> unused = settings_.unused();
     if (unused.empty()) return;
     std::vector<std::string> known;
     for (const GraphParam& param : expansion_.scopes[0].file->params) known.push_back(param.decl.name);
@@ -519,7 +302,7 @@ class Expander {
       }
     }
     std::sort(known.begin(), known.end());
-    for (const Setting* setting : unused) {
+    for (const PlacedSetting* setting : unused) {
       const std::string target = setting_target(setting->name);
       const std::string path = target.substr(0, target.rfind('.'));
       const auto covers = [&](const std::string& broken) {
@@ -531,7 +314,7 @@ class Expander {
       std::string hint = did_you_mean(name, known);
       if (hint.empty())
         hint = known.empty() ? "the graph has no parameters" : "parameters are " + listed(known, 20);
-      Setting about_name = *setting;
+      PlacedSetting about_name = *setting;
       about_name.offset = setting->name_offset;
       findings_.add(
           about_setting(about_name, "the graph has no parameter " + in_quotes(name), std::move(hint)));
@@ -544,7 +327,6 @@ class Expander {
   Expansion& expansion_;
   Findings& findings_;
   std::vector<std::string> type_names_;
-  std::vector<ChainLink> chain_;
   std::vector<std::string> broken_paths_;
   std::size_t instances_ = 0;
   std::size_t loop_ = nowhere;  // whose body is being instantiated
@@ -552,76 +334,13 @@ class Expander {
 
 }  // namespace
 
-const std::vector<ParamDecl>& loop_params() {
-  static const std::vector<ParamDecl> params = [] {
-    ParamDecl until, most, at_limit;
-    until.name = "until";
-    until.doc =
-        "ends the loop, looked at before every iteration: fields of the summaries of states compared with "
-        "numbers, joined by \"and\" and \"or\", like \"cover.remaining == 0\"";
-    until.required = true;
-    most.name = "max_iterations";
-    most.doc = "how often the body runs at most";
-    most.kind = ParamKind::integer;
-    most.default_value = std::int64_t{10'000};
-    most.minimum = 1;
-    most.maximum = 1'000'000'000;
-    at_limit.name = "at_limit";
-    at_limit.doc = "what to do when max_iterations have run";
-    at_limit.kind = ParamKind::choice;
-    at_limit.default_value = "error";
-    at_limit.choices = {{"error", "fail"}, {"stop", "go on with the state reached, and warn"}};
-    return std::vector<ParamDecl>{until, most, at_limit};
-  }();
-  return params;
-}
-
-std::string setting_target(const std::string& name) {
-  std::string path = name;
-  std::replace(path.begin(), path.end(), '.', '/');
-  const std::size_t last = path.rfind('/');
-  return last == std::string::npos ? "." + path : path.substr(0, last) + "." + path.substr(last + 1);
-}
-
-Diagnostic about_setting(const Setting& setting, std::string message, std::string hint) {
-  if (setting.file != nullptr) {
-    return json_text::finding(setting.file->source, setting.file->root, setting.offset, std::move(message),
-                              std::move(hint));
-  }
-  Diagnostic found;
-  found.file = printable(setting.origin);
-  found.message = std::move(message);
-  found.hint = std::move(hint);
-  return found;
-}
-
 void expand(const GraphFile& top, GraphFiles& files, const Registry& registry,
-            const std::vector<const Setting*>& settings, Expansion& expansion, Findings& findings) {
+            const std::vector<const PlacedSetting*>& settings, Expansion& expansion, Findings& findings) {
   try {
     Expander(files, registry, settings, expansion, findings).run(top);
   } catch (const Abandoned&) {
     expansion.abandoned = true;
   }
-}
-
-std::string read_text_file(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::error_code error;
-  if (!in || fs::is_directory(path, error)) {
-    const std::string why = fs::exists(path, error)
-                                ? (fs::is_directory(path, error) ? "it is a folder" : "access denied")
-                                : "there is no such file";
-    throw Error(ExitCode::usage, "cannot read " + in_quotes(path) + ": " + why);
-  }
-  std::string text;
-  constexpr std::size_t block = std::size_t{1} << 16;
-  while (in && text.size() <= json_text::max_size) {
-    const std::size_t size = text.size();
-    text.resize(size + block);
-    in.read(text.data() + size, static_cast<std::streamsize>(block));
-    text.resize(size + static_cast<std::size_t>(in.gcount()));
-  }
-  return text;
 }
 
 }  // namespace ballflow

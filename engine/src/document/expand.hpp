@@ -10,38 +10,16 @@
 #include <vector>
 
 #include "ballflow/graph.hpp"
-#include "document/graph_json.hpp"
+#include "document/findings.hpp"
+#include "document/graph_file.hpp"
+#include "document/graph_files.hpp"
+#include "document/setting.hpp"
 
 namespace ballflow {
 
 constexpr std::size_t max_instances = 1'000'000;
-constexpr std::size_t max_subgraph_depth = 50;
 
 constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
-
-/// A value given from outside to a parameter: by --set, or by an axis of a sweep.
-struct Setting {
-  std::string name;                 // as in Override
-  std::string text;                 // from the command line
-  std::optional<Json> value;        // from the graph file; `text` is not looked at then
-  std::string origin;               // for messages: "--set epsilon=0.5"
-  const GraphFile* file = nullptr;  // where it was written, instead of `origin`
-  Offset offset = 0, name_offset = 0;
-};
-
-/// "epsilon" -> ".epsilon", "prune.greedy.mode" -> "prune/greedy.mode": equal names are the same parameter.
-std::string setting_target(const std::string& name);
-
-Diagnostic about_setting(const Setting& setting, std::string message, std::string hint);
-
-/// Graph files that were read, each once.
-struct GraphFiles {
-  explicit GraphFiles(Findings& found) : findings(found) {}
-  std::map<std::string, std::unique_ptr<GraphFile>> by_path;  // canonical; null where it could not be read
-  std::vector<std::string> names;                             // as in messages, in order of first reading
-  std::map<std::string, std::string> canonical;               // memo: a file may be included a million times
-  Findings& findings;                                         // about the files themselves
-};
 
 /// One inclusion of a graph file; scope 0 is the top graph.
 struct Scope {
@@ -80,28 +58,19 @@ struct Expansion {
   std::vector<Leaf> leaves;
   std::vector<LoopBody> loops;
   bool abandoned = false;  // a limit was reached; the rest is missing
+
+  const GraphFile& top() const { return *scopes[0].file; }
+  const GraphFile& file_of(std::size_t scope) const { return *scopes[scope].file; }
+  /// Whether the scope is the body of a loop; its inputs then come from the loop.
+  bool is_body(std::size_t scope) const {
+    const std::size_t loop = scopes[scope].loop;
+    return loop != nowhere && loops[loop].scope == scope;
+  }
 };
 
 /// Reads included files, resolves parameters and checks them. Errors become findings; what depends on a
 /// reported error is left out silently. Of several settings of a parameter the last counts.
 void expand(const GraphFile& top, GraphFiles& files, const Registry& registry,
-            const std::vector<const Setting*>& settings, Expansion& expansion, Findings& findings);
-
-/// The artifacts for the inputs of the top graph: `given`, and those that its parameters of kind artifact
-/// name in settings or by default. `find` is asked once per name; what it found is in `found`. Each is
-/// checked against its type.
-std::map<std::string, ArtifactPtr> find_given(const GraphFile& top, const Registry& registry,
-                                              const std::vector<const Setting*>& settings,
-                                              const std::map<std::string, ArtifactPtr>& given,
-                                              const FindArtifact& find,
-                                              std::map<std::string, ArtifactPtr>& found, Findings& findings);
-
-/// Connects the leaves, checks ports, types and cycles, and puts the nodes into topological order. `given`
-/// are the artifacts for the inputs of the top graph.
-Dag connect(const Expansion& expansion, const Registry& registry,
-            const std::map<std::string, ArtifactPtr>& given, Findings& findings);
-
-/// Throws Error when it cannot be read or is larger than the limit of texts.
-std::string read_text_file(const std::string& path);
+            const std::vector<const PlacedSetting*>& settings, Expansion& expansion, Findings& findings);
 
 }  // namespace ballflow

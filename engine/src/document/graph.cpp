@@ -1,7 +1,10 @@
 #include "ballflow/graph.hpp"
 
+#include "document/artifact_params.hpp"
+#include "document/connect.hpp"
 #include "document/expand.hpp"
-#include "document/sweep.hpp"
+#include "document/graph_json.hpp"
+#include "document/variant_merger.hpp"
 
 namespace ballflow {
 
@@ -59,8 +62,8 @@ struct Outside {
 
 /// One graph without a sweep, or one variant. Nothing usable when there are findings.
 Dag expand_and_connect(const GraphFile& top, GraphFiles& files, const Registry& registry,
-                       const std::vector<const Setting*>& settings, Outside& outside, std::size_t& expanded,
-                       Findings& findings) {
+                       const std::vector<const PlacedSetting*>& settings, Outside& outside,
+                       std::size_t& expanded, Findings& findings) {
   Expansion expansion;
   expand(top, files, registry, settings, expansion, findings);
   expanded += expansion.leaves.size() + expansion.scopes.size();
@@ -77,13 +80,13 @@ Dag expand_and_connect(const GraphFile& top, GraphFiles& files, const Registry& 
 }
 
 Dag merge_variants(const GraphFile& top, GraphFiles& files, const Registry& registry,
-                   const std::vector<const Setting*>& sets, const Sweep& sweep, Outside& outside,
+                   const std::vector<const PlacedSetting*>& sets, const Sweep& sweep, Outside& outside,
                    Findings& findings) {
   VariantMerger merger(sweep);
   VariantFindings all;
   std::size_t failures = 0, expanded = 0;
   for (const Sweep::Choice& choice : sweep.variants) {
-    std::vector<const Setting*> settings = sets;
+    std::vector<const PlacedSetting*> settings = sets;
     for (std::size_t axis = 0; axis < choice.size(); ++axis)
       settings.push_back(&sweep.axes[axis].values[choice[axis]]);
     Findings found(&findings);
@@ -93,7 +96,7 @@ Dag merge_variants(const GraphFile& top, GraphFiles& files, const Registry& regi
     } else if (failures == 0) {
       merger.add(std::move(dag));
     }
-    all.add(sweep.name_of(choice), found.take(files.names));
+    all.add(sweep.name_of(choice), found.take(files.names()));
     if (failures == enough_failures) break;
     if (merger.nodes() <= max_instances && expanded <= max_expanded) continue;
     findings.error(top, top.sweep ? top.sweep->offset : top.root.offset,
@@ -114,41 +117,40 @@ std::string base_path(const std::string& path) {
 }
 
 Dag parse_graph(const std::string& text, const std::string& file, const Registry& registry,
-                const std::vector<Override>& overrides, const SweepOptions& options,
+                const std::vector<Override>& settings, const SweepOptions& options,
                 const std::map<std::string, ArtifactPtr>& given, const FindArtifact& find) {
   Findings findings;
   Outside outside{given, find};
-  GraphFiles files(findings);
-  files.names.push_back(file);
-  std::vector<Setting> sets;
-  for (const Override& override_ : overrides) {
-    Setting& set = sets.emplace_back();
-    set.name = override_.name;
-    set.text = override_.value;
-    set.origin = "--set " + override_.name + "=" + override_.value;
+  GraphFiles files(file, findings);
+  std::vector<PlacedSetting> placed;
+  for (const Override& setting : settings) {
+    PlacedSetting& set = placed.emplace_back();
+    set.name = setting.name;
+    set.text = setting.value;
+    set.origin = "--set " + setting.name + "=" + setting.value;
   }
-  std::vector<const Setting*> settings;
-  for (const Setting& set : sets) settings.push_back(&set);
+  std::vector<const PlacedSetting*> sets;
+  for (const PlacedSetting& set : placed) sets.push_back(&set);
   Dag dag;
   if (const auto top = read_graph_file(json_text::Source(file, text), findings)) {
-    if (const auto sweep = plan_sweep(*top, sets, options, findings)) {
-      dag = merge_variants(*top, files, registry, settings, *sweep, outside, findings);
+    if (const auto sweep = plan_sweep(*top, placed, options, findings)) {
+      dag = merge_variants(*top, files, registry, sets, *sweep, outside, findings);
     } else {
       std::size_t expanded = 0;
-      dag = expand_and_connect(*top, files, registry, settings, outside, expanded, findings);
+      dag = expand_and_connect(*top, files, registry, sets, outside, expanded, findings);
     }
   }
   const bool failed = findings.failed();
-  std::vector<Diagnostic> all = findings.take(files.names);
+  std::vector<Diagnostic> all = findings.take(files.names());
   if (failed) throw GraphError(std::move(all));
   dag.warnings = std::move(all);
   return dag;
 }
 
-Dag load_graph(const std::string& file, const Registry& registry, const std::vector<Override>& overrides,
+Dag load_graph(const std::string& file, const Registry& registry, const std::vector<Override>& settings,
                const SweepOptions& sweep, const std::map<std::string, ArtifactPtr>& given,
                const FindArtifact& find) {
-  return parse_graph(read_text_file(file), file, registry, overrides, sweep, given, find);
+  return parse_graph(read_text_file(file), file, registry, settings, sweep, given, find);
 }
 
 }  // namespace ballflow

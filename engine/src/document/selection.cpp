@@ -1,18 +1,29 @@
 // Which nodes of a DAG a name or an output stands for.
+#include <boost/graph/breadth_first_search.hpp>
+#include <boost/graph/two_bit_color_map.hpp>
+#include <boost/pending/queue.hpp>
+
 #include "ballflow/error.hpp"
 #include "ballflow/graph.hpp"
+#include "document/digraph.hpp"
 
 namespace ballflow {
 
 std::vector<bool> needed_nodes(const Dag& dag, const std::set<std::size_t>& targets) {
-  std::vector<bool> needed(dag.nodes.size(), false);
-  for (const std::size_t target : targets) needed[target] = true;
-  for (std::size_t i = dag.nodes.size(); i-- > 0;) {  // topological order: consumers come later
-    if (!needed[i]) continue;
+  DigraphEdges against;  // from consumers to what they read
+  for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
     for (const auto& [port, edge] : dag.nodes[i].inputs) {
-      if (edge.node != loop_input) needed[edge.node] = true;
+      if (edge.node != loop_input)
+        against.emplace_back(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(edge.node));
     }
   }
+  const Digraph graph = digraph(dag.nodes.size(), against);
+  const auto colors = boost::make_two_bit_color_map(num_vertices(graph), get(boost::vertex_index, graph));
+  boost::queue<std::uint32_t> queue;
+  boost::breadth_first_visit(graph, targets.begin(), targets.end(), queue, boost::default_bfs_visitor(),
+                             colors);
+  std::vector<bool> needed(dag.nodes.size());
+  for (std::uint32_t i = 0; i < needed.size(); ++i) needed[i] = get(colors, i) != boost::two_bit_white;
   return needed;
 }
 

@@ -13,19 +13,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t longest_label = 60, longest_name = 200;  // bytes; a file name has at most 255
-
-/// Cuts a text and marks it, so that different texts stay different.
-std::string cut(const std::string& text, std::size_t longest) {
-  if (text.size() <= longest) return text;
-  const std::string mark = "~" + sha256(text).hex().substr(0, 8);
-  std::size_t end = longest - mark.size();
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
-  return text.substr(0, end) + mark;
-}
+constexpr std::size_t longest_label = 60;  // bytes
 
 /// Text that can be part of a path of a node and of the name of a folder.
-std::string label_of(const std::string& text) {
+std::string label_text(const std::string& text) {
   std::string label;
   for (const char c : printable(text)) {
     const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
@@ -35,7 +26,7 @@ std::string label_of(const std::string& text) {
   return cut(label, longest_label);
 }
 
-std::string text_of(const Setting& setting) {
+std::string text_of(const PlacedSetting& setting) {
   return setting.value ? plain_text(*setting.value) : setting.text;
 }
 
@@ -43,26 +34,20 @@ std::string text_of(const Setting& setting) {
 std::vector<std::string> labels_of(const Sweep::Axis& axis, bool files) {
   std::vector<std::string> labels;
   std::set<std::string> names;
-  for (const Setting& setting : axis.values) {
+  for (const PlacedSetting& setting : axis.values) {
     const std::string text = text_of(setting);
-    labels.push_back(label_of(files ? fs::path(text).filename().string() : text));
+    labels.push_back(label_text(files ? fs::path(text).filename().string() : text));
     names.insert(labels.back());
   }
   if (names.size() == labels.size()) return labels;
   names.clear();
   for (std::size_t i = 0; i < labels.size(); ++i) {
-    const std::string label = label_of(text_of(axis.values[i]));
+    const std::string label = label_text(text_of(axis.values[i]));
     labels[i] = label;
     for (int number = 2; !names.insert(labels[i]).second; ++number)
       labels[i] = label + "~" + std::to_string(number);
   }
   return labels;
-}
-
-std::string label_part(const Sweep& sweep, std::size_t axis, std::uint32_t value) {
-  std::string name = sweep.axes[axis].name;
-  std::replace(name.begin(), name.end(), '/', '.');
-  return label_of(name) + "=" + sweep.axes[axis].labels[value];
 }
 
 /// Not "a.ply", and not "shape:torus?n=4000", which no file is named like.
@@ -74,7 +59,7 @@ bool is_pattern(const std::string& text) {
 
 class SweepPlanner {
  public:
-  SweepPlanner(const GraphFile& top, const std::vector<Setting>& sets, const SweepOptions& options,
+  SweepPlanner(const GraphFile& top, const std::vector<PlacedSetting>& sets, const SweepOptions& options,
                Findings& findings)
       : top_(top), sets_(sets), options_(options), findings_(findings) {}
 
@@ -100,20 +85,20 @@ class SweepPlanner {
     findings_.error(top_, offset, std::move(message), std::move(hint));
     good_ = false;
   }
-  void error(const Setting& about, std::string message, std::string hint = {}) {
+  void error(const PlacedSetting& about, std::string message, std::string hint = {}) {
     findings_.add(about_setting(about, std::move(message), std::move(hint)));
     good_ = false;
   }
 
-  static Setting from_option(const char* option, const std::string& name, const std::string& text) {
-    Setting setting;
+  static PlacedSetting from_option(const char* option, const std::string& name, const std::string& text) {
+    PlacedSetting setting;
     setting.name = name;
     setting.text = text;
     setting.origin = std::string(option) + " " + (name.empty() ? text : name + "=" + text);
     return setting;
   }
-  Setting from_file(const SweepAxis& axis, const SweepAxis::Value& value) const {
-    Setting setting;
+  PlacedSetting from_file(const SweepAxis& axis, const SweepAxis::Value& value) const {
+    PlacedSetting setting;
     setting.name = axis.name;
     setting.value = value.json;
     setting.file = &top_;
@@ -143,18 +128,18 @@ class SweepPlanner {
     const auto is_file = [&](const std::string& name) {
       return std::find(files.begin(), files.end(), name) != files.end();
     };
-    std::map<std::string, std::vector<Setting>> given;
+    std::map<std::string, std::vector<PlacedSetting>> given;
     for (const std::string& text : options_.inputs) {
       const std::size_t equals = text.find('=');
       if (equals != std::string::npos && top_.param_index.contains(text.substr(0, equals))) {
         const std::string name = text.substr(0, equals);
-        const Setting pattern = from_option("--inputs", name, text.substr(equals + 1));
+        const PlacedSetting pattern = from_option("--inputs", name, text.substr(equals + 1));
         if (!is_file(name))
           error(pattern, in_quotes(name) + " is no parameter of kind file", file_hint(files));
         given[name].push_back(pattern);
         continue;
       }
-      Setting pattern = from_option("--inputs", "", text);
+      PlacedSetting pattern = from_option("--inputs", "", text);
       if (top_.maps.size() == 1) {
         pattern.name = top_.maps[0].name;
       } else if (top_.maps.empty() && files.size() == 1) {
@@ -193,11 +178,11 @@ class SweepPlanner {
     return "file parameters are " + listed(files) + "; write --inputs '" + files[0] + "=PATTERN'";
   }
 
-  void add_files(const std::string& name, const std::vector<Setting>& patterns) {
+  void add_files(const std::string& name, const std::vector<PlacedSetting>& patterns) {
     Sweep::Axis axis;
     axis.name = name;
-    std::map<std::string, Setting> found;  // each once, sorted
-    for (const Setting& pattern : patterns) {
+    std::map<std::string, PlacedSetting> found;  // each once, sorted
+    for (const PlacedSetting& pattern : patterns) {
       const std::string text = text_of(pattern);
       std::vector<std::string> paths;
       if (!is_pattern(text)) {
@@ -217,7 +202,7 @@ class SweepPlanner {
               "patterns are relative to the current directory, " + in_quotes(fs::current_path().string()));
       }
       for (const std::string& path : paths) {
-        Setting value = pattern;
+        PlacedSetting value = pattern;
         value.name = name;
         if (value.value) {
           value.value = path;
@@ -258,7 +243,7 @@ class SweepPlanner {
       }
       return;
     }
-    const Setting whole = from_option("--axis", option.name, option.value);
+    const PlacedSetting whole = from_option("--axis", option.name, option.value);
     if (find_axis(option.name) != nullptr) {
       error(whole, in_quotes(option.name) + " is swept twice", "--inputs has this parameter already");
       return;
@@ -272,7 +257,7 @@ class SweepPlanner {
         return;
       }
       for (const auto& item : list) {
-        Setting value = whole;
+        PlacedSetting value = whole;
         if (item.is_structured() || item.is_null()) {
           error(whole, "a value of an axis must be a number, a text, true or false");
           return;
@@ -283,7 +268,7 @@ class SweepPlanner {
     } else {
       for (std::size_t begin = 0; begin <= option.value.size();) {
         const std::size_t comma = std::min(option.value.find(',', begin), option.value.size());
-        Setting value = whole;
+        PlacedSetting value = whole;
         value.text = option.value.substr(begin, comma - begin);
         axis.values.push_back(std::move(value));
         begin = comma + 1;
@@ -297,7 +282,7 @@ class SweepPlanner {
   }
 
   void refuse_fixed() {
-    for (const Setting& set : sets_) {
+    for (const PlacedSetting& set : sets_) {
       if (find_axis(set.name) == nullptr) continue;
       error(set, in_quotes(set.name) + " is an axis of the sweep",
             "to run one value of it only: --axis " + set.name + "=" + set.text);
@@ -306,7 +291,7 @@ class SweepPlanner {
 
   void refuse_doubles(const Sweep::Axis& axis) {
     std::set<std::string> seen;
-    for (const Setting& value : axis.values) {
+    for (const PlacedSetting& value : axis.values) {
       if (!seen.insert(text_of(value)).second)
         error(value, "axis " + in_quotes(axis.name) + " has " + in_quotes(text_of(value)) + " twice");
     }
@@ -329,7 +314,7 @@ class SweepPlanner {
                 hint.empty() ? "axes are " + listed(known) : hint);
           continue;
         }
-        for (const Setting& value : axis->values) known.push_back(text_of(value));
+        for (const PlacedSetting& value : axis->values) known.push_back(text_of(value));
         const std::string wanted = plain_text(part.values[0].json);
         const auto place = std::find(known.begin(), known.end(), wanted);
         if (place != known.end()) {
@@ -404,7 +389,7 @@ class SweepPlanner {
   }
 
   const GraphFile& top_;
-  const std::vector<Setting>& sets_;
+  const std::vector<PlacedSetting>& sets_;
   const SweepOptions& options_;
   Findings& findings_;
   Sweep sweep_;
@@ -413,136 +398,32 @@ class SweepPlanner {
   bool good_ = true;
 };
 
-void append(std::string& to, std::string_view text) {
-  to += std::to_string(text.size());
-  to += ':';
-  to += text;
-}
-
-/// What a node is but for its inputs.
-void append_identity(std::string& to, const DagNode& node) {
-  append(to, node.path);
-  append(to, node.kind.type());
-  for (const auto& [name, value] : node.params) {
-    append(to, name);
-    append(to, value.dump());
-  }
-  if (const Given* given = node.kind.given()) append(to, given->artifact->digest().hex());
-  const Loop* const loop = node.kind.loop();
-  if (loop == nullptr) return;
-  const Dag& body = loop->body;
-  for (const DagNode& inner : body.nodes) {
-    append_identity(to, inner);
-    for (const auto& [port, edge] : inner.inputs) {
-      append(to, port);
-      append(to, std::to_string(edge.node) + "." + edge.port);
-    }
-  }
-  for (const DagOutput& output : body.outputs) {
-    append(to, output.name);
-    append(to, std::to_string(output.from.node) + "." + output.from.port);
-  }
-}
-
-/// The value that a variant has for an axis, as a node gets it.
-Json value_in(const Dag& variant, const Setting& setting) {
-  const std::string target = setting_target(setting.name);
-  const std::size_t dot = target.rfind('.');
-  const std::string path = target.substr(0, dot), name = target.substr(dot + 1);
-  if (path.empty()) {
-    if (const auto value = variant.params.find(name); value != variant.params.end()) return value->second;
-  }
-  if (const DagNode* node = path.empty() ? nullptr : variant.find(path)) {
-    if (const auto value = node->params.find(name); value != node->params.end()) return value->second;
-  }
-  return setting.value ? *setting.value : Json(setting.text);
-}
-
 }  // namespace
+
+std::string cut(const std::string& text, std::size_t longest) {
+  if (text.size() <= longest) return text;
+  const std::string mark = "~" + sha256(text).hex().substr(0, 8);
+  std::size_t end = longest - mark.size();
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
+  return text.substr(0, end) + mark;
+}
+
+std::string Sweep::label_of(std::size_t axis, std::uint32_t value) const {
+  std::string name = axes[axis].name;
+  std::replace(name.begin(), name.end(), '/', '.');
+  return label_text(name) + "=" + axes[axis].labels[value];
+}
 
 std::string Sweep::name_of(const Choice& choice) const {
   std::string name;
   for (std::size_t axis = 0; axis < axes.size(); ++axis)
-    name += (axis == 0 ? "" : ",") + label_part(*this, axis, choice[axis]);
-  return cut(name, longest_name);
+    name += (axis == 0 ? "" : ",") + label_of(axis, choice[axis]);
+  return cut(name, longest_variant_name);
 }
 
-std::optional<Sweep> plan_sweep(const GraphFile& top, const std::vector<Setting>& sets,
+std::optional<Sweep> plan_sweep(const GraphFile& top, const std::vector<PlacedSetting>& sets,
                                 const SweepOptions& options, Findings& findings) {
   return SweepPlanner(top, sets, options, findings).run();
-}
-
-VariantMerger::VariantMerger(const Sweep& sweep) : sweep_(sweep) {}
-
-void VariantMerger::add(Dag dag) {
-  const std::size_t number = dag_.variants.size();
-  const Sweep::Choice& choice = sweep_.variants[number];
-  Variant& variant = dag_.variants.emplace_back();
-  variant.name = sweep_.name_of(choice);
-  for (std::size_t axis = 0; axis < choice.size(); ++axis) {
-    const Setting& setting = sweep_.axes[axis].values[choice[axis]];
-    variant.values.emplace_back(sweep_.axes[axis].name, value_in(dag, setting));
-  }
-  if (number == 0) {
-    dag_.file = dag.file;
-    dag_.doc = dag.doc;
-    dag_.params = std::move(dag.params);
-    for (const Sweep::Axis& axis : sweep_.axes) dag_.params.erase(axis.name);
-  }
-  variant.nodes.reserve(dag.nodes.size());
-  for (DagNode& node : dag.nodes) {
-    for (auto& [port, edge] : node.inputs) edge.node = variant.nodes[edge.node];
-    std::string identity;
-    append_identity(identity, node);
-    for (const auto& [port, edge] : node.inputs) {
-      append(identity, port);
-      append(identity, std::to_string(edge.node) + "." + edge.port);
-    }
-    const auto [known, fresh] = known_.try_emplace(std::move(identity), dag_.nodes.size());
-    variant.nodes.push_back(known->second);
-    if (fresh) {
-      dag_.nodes.push_back(std::move(node));
-      shared_.push_back({number, std::vector<bool>(choice.size(), true)});
-      continue;
-    }
-    Shared& shared = shared_[known->second];
-    for (std::size_t axis = 0; axis < choice.size(); ++axis) {
-      if (choice[axis] != sweep_.variants[shared.first][axis]) shared.common[axis] = false;
-    }
-  }
-  variant.interfaces = std::move(dag.interfaces);
-  for (DagOutput& output : variant.interfaces) output.from.node = variant.nodes[output.from.node];
-  for (DagOutput& output : dag.outputs) {
-    output.name = variant.name + "/" + output.name;
-    output.from.node = variant.nodes[output.from.node];
-    dag_.outputs.push_back(std::move(output));
-  }
-}
-
-Dag VariantMerger::finish() {
-  std::vector<bool> varies(sweep_.axes.size(), false);
-  for (const Sweep::Choice& choice : sweep_.variants) {
-    for (std::size_t axis = 0; axis < choice.size(); ++axis)
-      varies[axis] = varies[axis] || choice[axis] != sweep_.variants[0][axis];
-  }
-  std::set<std::string> taken;
-  for (std::size_t i = 0; i < dag_.nodes.size(); ++i) {
-    const Sweep::Choice& choice = sweep_.variants[shared_[i].first];
-    std::string label;
-    for (std::size_t axis = 0; axis < choice.size(); ++axis) {
-      if (varies[axis] && shared_[i].common[axis])
-        label += (label.empty() ? "" : ",") + label_part(sweep_, axis, choice[axis]);
-    }
-    std::string& path = dag_.nodes[i].path;
-    std::string labelled = label.empty() ? path : "[" + cut(label, longest_name) + "]/" + path;
-    // Two nodes of different variants may have no value, or the same values, in common.
-    if (!taken.insert(labelled).second) {
-      labelled = "[" + dag_.variants[shared_[i].first].name + "]/" + path;
-      taken.insert(labelled);
-    }
-    path = std::move(labelled);
-  }
-  return std::move(dag_);
 }
 
 }  // namespace ballflow

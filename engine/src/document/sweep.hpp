@@ -1,24 +1,24 @@
-// Sweeps: which variants a graph has, and their DAGs in one.
+// Sweeps: which variants a graph has.
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "ballflow/graph.hpp"
-#include "document/expand.hpp"
+#include "document/findings.hpp"
+#include "document/setting.hpp"
 
 namespace ballflow {
 
 constexpr std::size_t max_variants = 100'000;
+constexpr std::size_t longest_variant_name = 200;  // bytes; a file name has at most 255
 
 struct Sweep {
   struct Axis {
     std::string name;
-    std::vector<Setting> values;
+    std::vector<PlacedSetting> values;
     std::vector<std::string> labels;  // of the values: short, unique, without / [ ] , = and blanks
   };
   using Choice = std::vector<std::uint32_t>;  // a value of every axis
@@ -26,33 +26,18 @@ struct Sweep {
   std::vector<Axis> axes;
   std::vector<Choice> variants;
 
+  /// "epsilon=0.1,strategy=greedy"
   std::string name_of(const Choice& choice) const;
+  /// "epsilon=0.1", fit for a path of a node and the name of a folder.
+  std::string label_of(std::size_t axis, std::uint32_t value) const;
 };
+
+/// Cuts a text to so many bytes and marks it, so that different texts stay different.
+std::string cut(const std::string& text, std::size_t longest);
 
 /// The variants of a graph; none when nothing is swept. What is wrong becomes findings; there is at least
 /// one variant even then, so that the rest of the graph can be checked with it.
-std::optional<Sweep> plan_sweep(const GraphFile& top, const std::vector<Setting>& sets,
+std::optional<Sweep> plan_sweep(const GraphFile& top, const std::vector<PlacedSetting>& sets,
                                 const SweepOptions& options, Findings& findings);
-
-/// Puts the DAGs of the variants together.
-class VariantMerger {
- public:
-  explicit VariantMerger(const Sweep& sweep);
-  /// To be called for every variant in turn.
-  void add(Dag variant);
-  std::size_t nodes() const { return dag_.nodes.size(); }
-  Dag finish();
-
- private:
-  struct Shared {
-    std::size_t first = 0;     // the first variant that has it
-    std::vector<bool> common;  // by axis: its value is the same in all variants that have it
-  };
-
-  const Sweep& sweep_;
-  Dag dag_;
-  std::vector<Shared> shared_;                          // by node
-  std::unordered_map<std::string, std::size_t> known_;  // by what a node is
-};
 
 }  // namespace ballflow

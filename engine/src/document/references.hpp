@@ -1,0 +1,49 @@
+// References followed through the interfaces of subgraphs, to what gives the value.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "document/expand.hpp"
+
+namespace ballflow {
+
+/// What a reference leads to: an output port, an input of the loop around it, an artifact from outside, an
+/// input that is not connected, or something reported.
+struct Target {
+  enum class Kind { broken, unconnected, leaf, from_loop, given };
+  Kind kind = Kind::broken;
+  std::size_t leaf = 0;
+  std::string port;
+};
+
+class References {
+ public:
+  /// `given` are the artifacts for the inputs of the top graph.
+  References(const Expansion& expansion, const std::map<std::string, ArtifactPtr>& given, Findings& findings);
+
+  /// Follows a reference through subgraph outputs (down) and inputs (up) to the port that produces it.
+  Target resolve(std::size_t scope, const Reference& reference);
+
+  /// Also outputs that nobody reads: a subgraph that only passes values around may run in a circle, which is
+  /// reported.
+  void resolve_outputs(std::size_t scope);
+
+ private:
+  struct Memo {
+    enum class State { fresh, visiting, done };
+    State state = State::fresh;
+    Target target;
+  };
+
+  Target resolve_output(std::size_t scope, std::size_t output);
+
+  const Expansion& expansion_;
+  const std::map<std::string, ArtifactPtr>& given_;
+  Findings& findings_;
+  std::vector<std::vector<Memo>> resolved_;  // by scope and output
+};
+
+}  // namespace ballflow
