@@ -81,14 +81,14 @@ T rounded_box(const std::array<T, 3>& p, const std::array<double, 3>& h, double 
   return (inside < T(0) ? inside : sqrt(outside)) - T(r);
 }
 
-Box centred(double x, double y, double z) { return {{-x, -y, -z}, {x, y, z}}; }
+Box centered(double x, double y, double z) { return {{-x, -y, -z}, {x, y, z}}; }
 
 TriangleMesh sphere(std::int64_t n, Monitor& monitor) {
   const auto f = [](auto x, auto y, auto z) {
     using std::sqrt;
     return sqrt(square(x) + square(y) + square(z)) - 1.0;
   };
-  return implicit_mesh({f, centred(1, 1, 1), 1}, n, monitor);
+  return implicit_mesh({f, centered(1, 1, 1), 1}, n, monitor);
 }
 
 TriangleMesh torus(double r, std::int64_t n, Monitor& monitor) {
@@ -96,7 +96,7 @@ TriangleMesh torus(double r, std::int64_t n, Monitor& monitor) {
     using std::sqrt;
     return sqrt(square(sqrt(square(x) + square(y)) - 1.0) + square(z)) - r;
   };
-  return implicit_mesh({f, centred(1 + r, 1 + r, r), 1}, n, monitor);
+  return implicit_mesh({f, centered(1 + r, 1 + r, r), 1}, n, monitor);
 }
 
 TriangleMesh double_torus(double r, std::int64_t n, Monitor& monitor) {
@@ -106,24 +106,24 @@ TriangleMesh double_torus(double r, std::int64_t n, Monitor& monitor) {
   };
   // On the axes: x^4 - x^2 = c and y^2 <= c + 1/4, with c the root of r^2 / 2.
   const double c = r * std::sqrt(0.5);
-  return implicit_mesh({f, centred(std::sqrt(0.5 + std::sqrt(0.25 + c)), std::sqrt(0.25 + c), r), 0}, n,
+  return implicit_mesh({f, centered(std::sqrt(0.5 + std::sqrt(0.25 + c)), std::sqrt(0.25 + c), r), 0}, n,
                        monitor);
 }
 
 TriangleMesh torus_balls(double r, std::int64_t n, Monitor& monitor) {
   const double ball = 2.1 * r, blend = 0.5 * r;
-  std::array<std::array<double, 2>, 6> centres;
-  for (std::size_t i = 0; i < 6; ++i) centres[i] = on_circle(static_cast<double>(i) / 6);
-  const auto f = [r, ball, blend, centres](auto x, auto y, auto z) {
+  std::array<std::array<double, 2>, 6> centers;
+  for (std::size_t i = 0; i < 6; ++i) centers[i] = on_circle(static_cast<double>(i) / 6);
+  const auto f = [r, ball, blend, centers](auto x, auto y, auto z) {
     using std::sqrt;
     auto d = sqrt(square(sqrt(square(x) + square(y)) - 1.0) + square(z)) - r;
-    for (const auto& [c, s] : centres) {
+    for (const auto& [c, s] : centers) {
       d = smooth_min(d, sqrt(square(x - c) + square(y - s) + square(z)) - ball, blend);
     }
     return d;
   };
   const double reach = ball + blend;
-  return implicit_mesh({f, centred(1 + reach, 1 + reach, reach), 1}, n, monitor);
+  return implicit_mesh({f, centered(1 + reach, 1 + reach, reach), 1}, n, monitor);
 }
 
 TriangleMesh cross_of_bars(double r, std::int64_t n, Monitor& monitor) {
@@ -133,7 +133,7 @@ TriangleMesh cross_of_bars(double r, std::int64_t n, Monitor& monitor) {
     d = smooth_min(d, rounded_box(p, {r, 1, r}, 0.5 * r), r);
     return smooth_min(d, rounded_box(p, {r, r, 1}, 0.5 * r), r);
   };
-  return implicit_mesh({f, centred(1 + r, 1 + r, 1 + r), 1}, n, monitor);
+  return implicit_mesh({f, centered(1 + r, 1 + r, 1 + r), 1}, n, monitor);
 }
 
 TriangleMesh knot(double r, std::int64_t n) {

@@ -27,14 +27,14 @@ struct Ring {
 
 class Builder {
  public:
-  /// A ring of `corners` vertices at distance r from `centre`; one vertex when r = 0. side and binormal are
+  /// A ring of `corners` vertices at distance r from `center`; one vertex when r = 0. side and binormal are
   /// orthogonal unit vectors.
-  Ring add_ring(const Vec3& centre, const Vec3& side, const Vec3& binormal, double r, Index corners,
+  Ring add_ring(const Vec3& center, const Vec3& side, const Vec3& binormal, double r, Index corners,
                 double phase) {
     const Ring ring{static_cast<Index>(vertices.size()), corners, phase};
     for (Index i = 0; i < corners; ++i) {
       const auto [c, s] = on_circle(phase + static_cast<double>(i) / corners);
-      vertices.push_back(centre + r * (c * side + s * binormal));
+      vertices.push_back(center + r * (c * side + s * binormal));
     }
     return ring;
   }

@@ -65,19 +65,19 @@ Json attribute_json(const Attribute& attribute, Blocks& blocks) {
 Json layer_json(const Layer& layer, Blocks& blocks) {
   // The centre does not depend on radii: layers with the same centres share a block.
   const geometry::Box box = bounding_box({layer}), inner = geometry::bounding_box(layer.vertices.span());
-  const Vec3 centre = inner.empty() ? Vec3{} : 0.5 * (inner.lower + inner.upper);
+  const Vec3 center = inner.empty() ? Vec3{} : 0.5 * (inner.lower + inner.upper);
   std::vector<float> vertices;
   vertices.reserve(3 * layer.vertices.size());
   for (const Vec3 v : layer.vertices) {
-    const Vec3 p = v - centre;
+    const Vec3 p = v - center;
     for (const double x : {p.x, p.y, p.z}) vertices.push_back(static_cast<float>(x));
   }
   Json json = {{"name", layer.name},
                {"shape", to_string(layer.shape)},
                {"count", layer.elements()},
-               {"centre", json_of(centre)},
-               {"lower", json_of(box.empty() ? centre : box.lower)},
-               {"upper", json_of(box.empty() ? centre : box.upper)},
+               {"centre", json_of(center)},
+               {"lower", json_of(box.empty() ? center : box.lower)},
+               {"upper", json_of(box.empty() ? center : box.upper)},
                {"vertices", blocks.add(std::span<const float>(vertices))}};
   if (layer.shape == Shape::balls) json["radii"] = add_floats(layer.radii, blocks);
   if (layer.shape == Shape::segments) json["segments"] = add_indices(layer.segments, blocks);
