@@ -247,23 +247,23 @@ bool is_wanted(const std::filesystem::path& graph, const std::string& strategy) 
 
 TEST_F(Cancellation, every_node_ends_soon_after_it_was_cancelled_at_any_moment) {
   const std::string model = "shape:torus?n=" + std::to_string(samples());
-  std::vector<std::pair<std::string, std::vector<Override>>> runs;
+  std::vector<std::pair<std::string, std::vector<Setting>>> runs;
   for (const auto& entry : std::filesystem::directory_iterator(test::source_file("graphs"))) {
     if (entry.path().extension() != ".json") continue;
     const std::string file = entry.path().string();
     const Dag dag = load_graph(file, registry());
-    std::vector<Override> overrides;
-    if (dag.params.count("input") != 0) overrides.push_back({"input", model});
-    if (dag.params.count("repair") != 0) overrides.push_back({"repair", "topology"});
+    std::vector<Setting> settings;
+    if (dag.params.count("input") != 0) settings.push_back({"input", model});
+    if (dag.params.count("repair") != 0) settings.push_back({"repair", "topology"});
     // A number of balls is not reached by every strategy; none keeps all of them.
     if (dag.params.count("strategy") == 0 || dag.params.count("k") != 0) {
-      if (is_wanted(entry.path(), "")) runs.emplace_back(file, overrides);
+      if (is_wanted(entry.path(), "")) runs.emplace_back(file, settings);
       continue;
     }
     for (const auto& strategy : std::filesystem::directory_iterator(test::source_file("graphs/strategies"))) {
       if (strategy.path().extension() != ".json") continue;
       if (!is_wanted(entry.path(), strategy.path().stem().string())) continue;
-      runs.emplace_back(file, overrides);
+      runs.emplace_back(file, settings);
       runs.back().second.push_back({"strategy", strategy.path().stem().string()});
     }
   }
@@ -274,9 +274,9 @@ TEST_F(Cancellation, every_node_ends_soon_after_it_was_cancelled_at_any_moment) 
   std::sort(runs.begin(), runs.end(), [&](const auto& a, const auto& b) {
     return std::pair(prunes(a), a.first) < std::pair(prunes(b), b.first);
   });
-  for (const auto& [file, overrides] : runs) {
-    SCOPED_TRACE(file + (overrides.empty() ? "" : " " + overrides.back().value));
-    const Dag dag = load_graph(file, registry(), overrides);
+  for (const auto& [file, settings] : runs) {
+    SCOPED_TRACE(file + (settings.empty() ? "" : " " + settings.back().value));
+    const Dag dag = load_graph(file, registry(), settings);
     if (large() && !has_something_new(dag)) continue;
     examine(dag, {});
     if (HasFatalFailure()) return;

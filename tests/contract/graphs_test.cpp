@@ -62,7 +62,7 @@ TEST_P(EveryGraph, runs_on_a_generated_model_with_equal_digests_for_any_number_o
   const bool takes_input = load_graph(file, registry()).params.count("input") != 0;
   const Dag dag = load_graph(
       file, registry(),
-      takes_input ? std::vector<Override>{{"input", "shape:torus?n=4000"}} : std::vector<Override>{});
+      takes_input ? std::vector<Setting>{{"input", "shape:torus?n=4000"}} : std::vector<Setting>{});
   EXPECT_FALSE(dag.doc.empty());
   const auto results = run_with_threads(dag, {1, 2, 4});
   ASSERT_EQ(results[0].status, ExitCode::ok);

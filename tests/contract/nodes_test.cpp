@@ -190,16 +190,16 @@ INSTANTIATE_TEST_SUITE_P(Nodes, EveryNode, testing::ValuesIn(node_ids()),
 
 /// What the pages of the nodes say can be typed runs, with a small model in place of the usual one.
 TEST(Examples, run) {
-  std::map<std::string, std::vector<Override>> commands;
+  std::map<std::string, std::vector<Setting>> commands;
   for (const auto& [id, example] : find_examples(test::source_file("graphs"), registry())) {
     std::string name = example.graph;
-    for (const Override& set : example.overrides) name += " " + set.name + "=" + set.value;
-    std::vector<Override> overrides = example.overrides;
+    for (const Setting& set : example.settings) name += " " + set.name + "=" + set.value;
+    std::vector<Setting> settings = example.settings;
     const std::string file = test::source_file("graphs/" + example.graph);
     if (load_graph(file, registry()).params.contains("input"))
-      overrides.push_back({"input", "shape:torus?n=600"});
-    if (!commands.emplace(name, overrides).second) continue;
-    const Dag dag = load_graph(file, registry(), overrides);
+      settings.push_back({"input", "shape:torus?n=600"});
+    if (!commands.emplace(name, settings).second) continue;
+    const Dag dag = load_graph(file, registry(), settings);
     Silent events;
     Runner runner(dag, registry(), Store::open({}), {}, events);
     EXPECT_EQ(runner.run().status, ExitCode::ok) << name;

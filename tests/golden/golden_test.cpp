@@ -24,7 +24,7 @@ const Registry& registry() {
 struct Case {
   const char* name;
   const char* graph;
-  std::vector<Override> overrides;
+  std::vector<Setting> settings;
   int euler_characteristic;  // of the solid: 1 - genus; ignored for kNoTopology
 };
 constexpr int kNoTopology = 1000;
@@ -83,7 +83,7 @@ class Golden : public testing::TestWithParam<Case> {};
 TEST_P(Golden, has_the_topology_of_the_model_and_the_figures_of_before) {
   const Case& c = GetParam();
   const Dag dag =
-      load_graph(test::source_file("graphs/" + std::string(c.graph) + ".json"), registry(), c.overrides);
+      load_graph(test::source_file("graphs/" + std::string(c.graph) + ".json"), registry(), c.settings);
   Silent silent;
   Runner runner(dag, registry(), Store::open({}), {}, silent);
   const RunResult& result = runner.run();

@@ -165,7 +165,7 @@ struct Variant {
 struct Dag {
   std::string file;
   std::string doc;
-  std::map<std::string, Json> params;  // of the top graph, overrides applied; not those that are swept
+  std::map<std::string, Json> params;  // of the top graph, settings applied; not those that are swept
   std::vector<DagNode> nodes;
   std::vector<DagOutput> outputs;
   std::vector<DagOutput> interfaces;  // outputs of subgraphs ("prune.cover"); not of a sweep: see Variant
@@ -196,15 +196,15 @@ struct Loop {
 const std::vector<ParamDecl>& loop_params();
 
 /// One --set: "epsilon" or "prune/greedy.mode" (also with dots: "prune.greedy.mode"), and its text.
-struct Override {
+struct Setting {
   std::string name, value;
 };
 
 /// What the command line says about a sweep.
 struct SweepOptions {
-  /// --axis: a name as in Override, and values "0.1,0.3" or a JSON list. Replaces the axis of that name, or
+  /// --axis: a name as in Setting, and values "0.1,0.3" or a JSON list. Replaces the axis of that name, or
   /// is one more.
-  std::vector<Override> axes;
+  std::vector<Setting> axes;
   /// --inputs: file patterns, for the parameter that "map" names, else for the only file parameter of the
   /// graph; "name=pattern" chooses the parameter.
   std::vector<std::string> inputs;
@@ -217,7 +217,7 @@ using FindArtifact = std::function<ArtifactPtr(const std::string& name)>;
 std::string base_path(const std::string& path);
 
 /// Reads, expands and checks a graph file: syntax, unknown and duplicate keys, node types, ports, types of
-/// edges, required inputs, cycles, parameter kinds and ranges, overrides that match nothing. Throws
+/// edges, required inputs, cycles, parameter kinds and ranges, settings that match nothing. Throws
 /// GraphError with ALL findings. Relative paths of file parameters are relative to the current directory,
 /// wherever they are written; those of subgraphs to the file that names them.
 /// Limits: 64 MB of text, nesting depth 100, 1 000 000 nodes, subgraphs 50 deep, 100 000 variants.
@@ -225,13 +225,13 @@ std::string base_path(const std::string& path);
 /// `given`: artifacts for the "inputs" and the parameters of kind artifact, by name; they become nodes
 /// "inputs/<name>". An input that is neither given nor optional is an error, as is an artifact without an
 /// input of its name and type. `find` looks for other values of artifact parameters: digests and files.
-Dag load_graph(const std::string& file, const Registry& registry, const std::vector<Override>& overrides = {},
+Dag load_graph(const std::string& file, const Registry& registry, const std::vector<Setting>& settings = {},
                const SweepOptions& sweep = {}, const std::map<std::string, ArtifactPtr>& given = {},
                const FindArtifact& find = {});
 
 /// The same from text; `file` is the name used in messages and the base of relative subgraph paths.
 Dag parse_graph(const std::string& text, const std::string& file, const Registry& registry,
-                const std::vector<Override>& overrides = {}, const SweepOptions& sweep = {},
+                const std::vector<Setting>& settings = {}, const SweepOptions& sweep = {},
                 const std::map<std::string, ArtifactPtr>& given = {}, const FindArtifact& find = {});
 
 /// Which nodes the outputs of the graph need; as Dag::nodes.

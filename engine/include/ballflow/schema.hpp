@@ -21,9 +21,9 @@ Json graph_schema(const Registry& registry);
 
 /// How a graph uses a node.
 struct NodeExample {
-  std::string graph, file;          // what runs it, and where the node is written; relative to the folder
-  std::vector<Override> overrides;  // with which the graph has the node
-  Json entry;                       // {"name": {"type": ..., ...}}, as in the file
+  std::string graph, file;        // what runs it, and where the node is written; relative to the folder
+  std::vector<Setting> settings;  // with which the graph has the node
+  Json entry;                     // {"name": {"type": ..., ...}}, as in the file
 };
 
 /// The first use of every node type in the graphs of a folder, subgraphs that they can choose included.

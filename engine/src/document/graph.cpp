@@ -117,13 +117,13 @@ std::string base_path(const std::string& path) {
 }
 
 Dag parse_graph(const std::string& text, const std::string& file, const Registry& registry,
-                const std::vector<Override>& settings, const SweepOptions& options,
+                const std::vector<Setting>& settings, const SweepOptions& options,
                 const std::map<std::string, ArtifactPtr>& given, const FindArtifact& find) {
   Findings findings;
   Outside outside{given, find};
   GraphFiles files(file, findings);
   std::vector<PlacedSetting> placed;
-  for (const Override& setting : settings) {
+  for (const Setting& setting : settings) {
     PlacedSetting& set = placed.emplace_back();
     set.name = setting.name;
     set.text = setting.value;
@@ -147,7 +147,7 @@ Dag parse_graph(const std::string& text, const std::string& file, const Registry
   return dag;
 }
 
-Dag load_graph(const std::string& file, const Registry& registry, const std::vector<Override>& settings,
+Dag load_graph(const std::string& file, const Registry& registry, const std::vector<Setting>& settings,
                const SweepOptions& sweep, const std::map<std::string, ArtifactPtr>& given,
                const FindArtifact& find) {
   return parse_graph(read_text_file(file), file, registry, settings, sweep, given, find);

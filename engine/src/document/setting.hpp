@@ -13,7 +13,7 @@ namespace ballflow {
 
 /// A setting, and where it was written.
 struct PlacedSetting {
-  std::string name;                 // as in Override
+  std::string name;                 // as in Setting
   std::string text;                 // from the command line
   std::optional<Json> value;        // from the graph file; `text` is not looked at then
   std::string origin;               // for messages: "--set epsilon=0.5"

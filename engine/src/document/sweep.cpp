@@ -68,7 +68,7 @@ class SweepPlanner {
     if (top_.sweep) {
       for (const SweepAxis& axis : top_.sweep->axes) add_axis(axis);
     }
-    for (const Override& axis : options_.axes) add_axis(axis);
+    for (const Setting& axis : options_.axes) add_axis(axis);
     if (sweep_.axes.empty()) return std::nullopt;
     refuse_fixed();
     for (std::size_t i = 0; i < sweep_.axes.size(); ++i) {
@@ -217,7 +217,7 @@ class SweepPlanner {
   }
 
   void add_axis(const SweepAxis& written) {
-    for (const Override& option : options_.axes) {
+    for (const Setting& option : options_.axes) {
       if (setting_target(option.name) == setting_target(written.name)) return add_axis(option);
     }
     Sweep::Axis axis;
@@ -233,9 +233,9 @@ class SweepPlanner {
     }
   }
 
-  void add_axis(const Override& option) {
+  void add_axis(const Setting& option) {
     if (!added_.insert(setting_target(option.name)).second) {
-      if (std::count_if(options_.axes.begin(), options_.axes.end(), [&](const Override& other) {
+      if (std::count_if(options_.axes.begin(), options_.axes.end(), [&](const Setting& other) {
             return setting_target(other.name) == setting_target(option.name);
           }) > 1) {
         error(from_option("--axis", option.name, option.value), "this axis is given twice",

@@ -24,8 +24,8 @@ Json read(const std::string& file) { return Json::parse(read_text_file(file), nu
 
 /// The ways to run a graph: as it is, and with every subgraph that one of its parameters may choose
 /// ("strategies/${strategy}.json").
-std::vector<std::vector<Override>> variants(const std::string& file) {
-  std::vector<std::vector<Override>> result = {{}};
+std::vector<std::vector<Setting>> variants(const std::string& file) {
+  std::vector<std::vector<Setting>> result = {{}};
   const Json graph = read(file);
   for (const auto& [name, node] : graph.at("nodes").items()) {
     const std::string path = node.value("graph", std::string());
@@ -43,10 +43,10 @@ class Collector {
   Collector(const fs::path& folder, std::map<std::string, NodeExample>& examples)
       : folder_(folder), examples_(examples) {}
 
-  void add(const Dag& dag, const std::string& graph, const std::vector<Override>& overrides) {
+  void add(const Dag& dag, const std::string& graph, const std::vector<Setting>& settings) {
     for (const DagNode& node : dag.nodes) {
       if (const Loop* loop = node.kind.loop()) {
-        add(loop->body, graph, overrides);
+        add(loop->body, graph, settings);
         continue;
       }
       const auto [place, fresh] = examples_.try_emplace(node.kind.type());
@@ -54,7 +54,7 @@ class Collector {
       const std::string name = node.path.substr(node.path.rfind('/') + 1);
       place->second.graph = fs::path(graph).lexically_relative(folder_).string();
       place->second.file = fs::path(node.place.file).lexically_relative(folder_).string();
-      place->second.overrides = overrides;
+      place->second.settings = settings;
       place->second.entry = {{name, read(node.place.file).at("nodes").at(name)}};
     }
   }
@@ -73,8 +73,8 @@ std::map<std::string, NodeExample> find_examples(const std::string& folder, cons
   Collector collector(root, examples);
   for (const std::string& file : graphs_in(root)) {
     try {
-      for (const std::vector<Override>& overrides : variants(file))
-        collector.add(load_graph(file, registry, overrides), file, overrides);
+      for (const std::vector<Setting>& settings : variants(file))
+        collector.add(load_graph(file, registry, settings), file, settings);
     } catch (const std::exception&) {
       // A graph for node libraries that are not here is no example.
     }

@@ -56,7 +56,7 @@ Json made_up_example(const NodeDeclaration& node) {
 
 std::string command(const NodeExample& example) {
   std::string text = "ballflow run graphs/" + example.graph;
-  for (const Override& set : example.overrides) text += " --set " + set.name + "=" + set.value;
+  for (const Setting& set : example.settings) text += " --set " + set.name + "=" + set.value;
   return text;
 }
 

@@ -35,7 +35,7 @@ struct GraphArguments {
   std::vector<std::string> sets, axes, inputs;
 
   void add_to(const Command& command);
-  std::vector<Override> overrides() const;  // of --set
+  std::vector<Setting> settings() const;  // of --set
   /// Reads and checks the graph, with what was set; prints its warnings.
   Dag load(const Common& common, const Registry& registry) const;
   /// The words of a command line that give the same graph, quoted for a shell.

@@ -131,8 +131,8 @@ void GraphArguments::add_to(const Command& command) {
 
 namespace {
 
-std::vector<Override> split(const char* option, const std::vector<std::string>& texts, const char* example) {
-  std::vector<Override> result;
+std::vector<Setting> split(const char* option, const std::vector<std::string>& texts, const char* example) {
+  std::vector<Setting> result;
   for (const std::string& text : texts) {
     auto [name, value] = split_setting(option, text, example);
     result.push_back({std::move(name), std::move(value)});
@@ -142,10 +142,10 @@ std::vector<Override> split(const char* option, const std::vector<std::string>& 
 
 }  // namespace
 
-std::vector<Override> GraphArguments::overrides() const { return split("--set", sets, "epsilon=0.5"); }
+std::vector<Setting> GraphArguments::settings() const { return split("--set", sets, "epsilon=0.5"); }
 
 Dag GraphArguments::load(const Common& common, const Registry& registry) const {
-  Dag dag = load_graph(file, registry, overrides(), {split("--axis", axes, "epsilon=0.1,0.3"), inputs}, {},
+  Dag dag = load_graph(file, registry, settings(), {split("--axis", axes, "epsilon=0.1,0.3"), inputs}, {},
                        [&common](const std::string& name) { return find_artifact(common, name); });
   for (const Diagnostic& warning : dag.warnings) std::fprintf(stderr, "%s\n", warning.text().c_str());
   return dag;

@@ -88,8 +88,8 @@ std::string graph_text(const Registry& registry, const ExecNodeArguments& argume
   return graph.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-std::vector<Override> overrides(const ExecNodeArguments& arguments) {
-  std::vector<Override> result;
+std::vector<Setting> settings(const ExecNodeArguments& arguments) {
+  std::vector<Setting> result;
   const std::string node = node_name(arguments.type);
   for (const std::string& set : arguments.sets) {
     auto [name, value] = split_setting("--set", set, "epsilon=0.5");
@@ -102,12 +102,12 @@ std::vector<Override> overrides(const ExecNodeArguments& arguments) {
 /// The DAG of that graph; all outputs of the node are wanted. Nobody wrote the text of the graph, so messages
 /// do not show places in it.
 Dag node_dag(const Registry& registry, const ExecNodeArguments& arguments,
-             const std::vector<Override>& overrides, const std::map<std::string, ArtifactPtr>& inputs) {
+             const std::vector<Setting>& settings, const std::map<std::string, ArtifactPtr>& inputs) {
   constexpr const char* nowhere = "exec-node";
   try {
     std::map<std::string, ArtifactPtr> given;
     for (const auto& [slot, artifact] : inputs) given.emplace(input_name(slot), artifact);
-    Dag dag = parse_graph(graph_text(registry, arguments, inputs), nowhere, registry, overrides, {}, given);
+    Dag dag = parse_graph(graph_text(registry, arguments, inputs), nowhere, registry, settings, {}, given);
     const std::size_t node = dag.nodes.size() - 1;  // behind its inputs
     for (const PortDecl& port : dag.nodes[node].kind.outputs())
       dag.outputs.push_back({port.name, port.doc, {node, port.name}});
@@ -156,7 +156,7 @@ int exec_node(const Common& common, const ExecNodeArguments& arguments) {
   }
   const auto registry = common.registry();
   const auto inputs = read_inputs(common, *registry, arguments);
-  const std::vector<Override> given = overrides(arguments);
+  const std::vector<Setting> given = settings(arguments);
   const Dag dag = node_dag(*registry, arguments, given, inputs);
   const DagNode& node = dag.nodes.back();
 

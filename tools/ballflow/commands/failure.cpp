@@ -48,10 +48,10 @@ std::string set(const std::string& name, const Json& value) {
 }
 
 /// --set of nodes inside a loop, by their names inside it.
-std::string inner_overrides(const FailedRun& run, const DagNode& loop) {
+std::string inner_settings(const FailedRun& run, const DagNode& loop) {
   std::string options;
   const std::string inside = base_path(loop.path) + "/";  // not the variant of a sweep
-  for (const Override& given : run.overrides) {
+  for (const Setting& given : run.settings) {
     std::string name = given.name;
     std::replace(name.begin(), name.end(), '.', '/');
     if (name.rfind(inside, 0) != 0) continue;
@@ -76,7 +76,7 @@ std::string exec_node_line(const FailedRun& run, const FailedCall& call) {
   }
   if (loop != nullptr) {
     for (const auto& [name, value] : loop->body.params) line += set(name, value);
-    line += inner_overrides(run, node);
+    line += inner_settings(run, node);
   }
   for (const auto& [port, entry] : call.inputs)
     line += " --input " + shell_word(port + "=" + entry.digest.hex());

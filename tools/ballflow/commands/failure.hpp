@@ -16,7 +16,7 @@ struct FailedRun {
   const Dag& dag;
   Store& store;
   std::uint64_t seed = 0;
-  const std::vector<Override>& overrides;
+  const std::vector<Setting>& settings;
 };
 
 /// Lines about node `i` of the run, each with its newline: path, type, cause, what to do, parameters, inputs

@@ -174,7 +174,7 @@ int run(const Common& common, const RunArguments& arguments) {
     throw Error(ExitCode::usage, arguments.graph.file + " has no \"sweep\"",
                 "say what to sweep over: --axis NAME=VALUE,VALUE, or --inputs 'PATTERN' for files");
   }
-  const std::vector<Override> overrides = arguments.graph.overrides();
+  const std::vector<Setting> settings = arguments.graph.settings();
   check_formats(dag, formats);
   // A folder of results says what they are results of.
   const std::string report_path = !arguments.report.empty() || arguments.out.empty() || dag.variants.empty()
@@ -284,7 +284,7 @@ int run(const Common& common, const RunArguments& arguments) {
   }
   for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
     if (result.nodes[i].status != NodeStatus::failed) continue;
-    const FailedRun failed{common, *registry, dag, *store, arguments.settings.seed, overrides};
+    const FailedRun failed{common, *registry, dag, *store, arguments.settings.seed, settings};
     std::fprintf(stderr, "\n%s  again, from this node on: %s\n", failure_text(failed, result, i).c_str(),
                  again(common, arguments).c_str());
   }

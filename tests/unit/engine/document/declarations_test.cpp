@@ -342,11 +342,11 @@ TEST(examples, are_the_first_uses_in_the_graphs_of_a_folder_and_in_what_they_can
   EXPECT_EQ(examples.at("Load").entry.begin().key(), "load");
   EXPECT_EQ(examples.at("Grow").file, "parts/none.json");
   EXPECT_EQ(examples.at("Grow").entry.at("small").at("params").at("epsilon"), 0);
-  EXPECT_TRUE(examples.at("Grow").overrides.empty());
+  EXPECT_TRUE(examples.at("Grow").settings.empty());
   EXPECT_EQ(examples.at("Match").graph, "b.json");
   EXPECT_EQ(examples.at("Match").file, "parts/much.json");
-  ASSERT_EQ(examples.at("Match").overrides.size(), 1u);
-  EXPECT_EQ(examples.at("Match").overrides[0].value, "much");
+  ASSERT_EQ(examples.at("Match").settings.size(), 1u);
+  EXPECT_EQ(examples.at("Match").settings[0].value, "much");
   EXPECT_TRUE(find_examples(folder.file("nowhere"), registry).empty());
 }
 

@@ -27,9 +27,9 @@ std::string shown(const std::vector<Diagnostic>& findings) {
 }
 
 /// All errors without the caret lines; empty when the graph is right.
-std::string errors(const std::string& text, const std::vector<Override>& overrides = {}) {
+std::string errors(const std::string& text, const std::vector<Setting>& settings = {}) {
   try {
-    parse_graph(text, "g.json", registry(), overrides);
+    parse_graph(text, "g.json", registry(), settings);
   } catch (const GraphError& error) {
     EXPECT_EQ(error.code(), ExitCode::usage);
     return shown(error.findings());
@@ -37,9 +37,9 @@ std::string errors(const std::string& text, const std::vector<Override>& overrid
   return {};
 }
 
-std::string load_errors(const std::string& file, const std::vector<Override>& overrides = {}) {
+std::string load_errors(const std::string& file, const std::vector<Setting>& settings = {}) {
   try {
-    load_graph(file, registry(), overrides);
+    load_graph(file, registry(), settings);
   } catch (const GraphError& error) {
     return shown(error.findings());
   }
@@ -332,7 +332,7 @@ TEST(graph_error, substitutions) {
       "factor (1)\n");
 }
 
-TEST(graph_error, overrides) {
+TEST(graph_error, settings) {
   const std::string graph =
       "{\"params\":{\"epsilon\":{\"kind\":\"number\",\"default\":1,\"minimum\":0,\"doc\":\"growth\",\"unit\":"
       "\"%\"}},\"nodes\":{\"l\":{\"type\":\"Load\","
@@ -373,8 +373,8 @@ class graph_error_in_files : public testing::Test {
  protected:
   void write(const std::string& name, const std::string& text) { test::write_file(folder_.file(name), text); }
   /// Errors of loading a file, with the folder's name removed.
-  std::string of(const std::string& name, const std::vector<Override>& overrides = {}) {
-    std::string text = load_errors(folder_.file(name), overrides);
+  std::string of(const std::string& name, const std::vector<Setting>& settings = {}) {
+    std::string text = load_errors(folder_.file(name), settings);
     for (std::size_t at; (at = text.find(folder_.path() + "/")) != std::string::npos;)
       text.erase(at, folder_.path().size() + 1);
     return text;

@@ -11,15 +11,15 @@
 namespace ballflow {
 namespace {
 
-Dag parse(const std::string& text, const std::vector<Override>& overrides = {},
+Dag parse(const std::string& text, const std::vector<Setting>& settings = {},
           const std::string& file = "g.json") {
   static const Registry registry = test::toy_registry();
-  return parse_graph(text, file, registry, overrides);
+  return parse_graph(text, file, registry, settings);
 }
 
-Dag load(const std::string& file, const std::vector<Override>& overrides = {}) {
+Dag load(const std::string& file, const std::vector<Setting>& settings = {}) {
   static const Registry registry = test::toy_registry();
-  return load_graph(file, registry, overrides);
+  return load_graph(file, registry, settings);
 }
 
 std::vector<std::string> paths(const Dag& dag) {
@@ -132,7 +132,7 @@ TEST(graph, overrides_reach_graph_parameters_and_nodes_at_any_depth) {
   EXPECT_EQ(dag.outputs.at(0).from.node, 3U);
   const Dag dots = load(folder.file("top.json"),
                         {{"which", "mid"}, {"prune.deep.trim.keep", "1"}, {"prune/deep/trim/keep", "0.75"}});
-  EXPECT_EQ(dots.find("prune/deep/trim")->params.at("keep"), 0.75) << "the last of two overrides wins";
+  EXPECT_EQ(dots.find("prune/deep/trim")->params.at("keep"), 0.75) << "the last of two settings wins";
 }
 
 TEST(graph, one_subgraph_serves_twice_with_different_parameters) {

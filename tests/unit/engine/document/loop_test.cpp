@@ -21,13 +21,13 @@ struct graph_loop : testing::Test {
            loop + "}}";
   }
 
-  Dag parse(const std::string& text, const std::vector<Override>& overrides = {}) {
-    return parse_graph(text, folder.file("g.json"), registry(), overrides);
+  Dag parse(const std::string& text, const std::vector<Setting>& settings = {}) {
+    return parse_graph(text, folder.file("g.json"), registry(), settings);
   }
 
-  std::string errors(const std::string& text, const std::vector<Override>& overrides = {}) {
+  std::string errors(const std::string& text, const std::vector<Setting>& settings = {}) {
     try {
-      parse(text, overrides);
+      parse(text, settings);
     } catch (const GraphError& error) {
       std::string shown;
       for (const Diagnostic& d : error.findings()) {

@@ -35,8 +35,8 @@ std::string graph_with(const std::string& sections) {
 }
 
 Dag parse(const std::string& sections, const SweepOptions& options = {},
-          const std::vector<Override>& overrides = {}) {
-  return parse_graph(graph_with(sections), "g.json", registry(), overrides, options);
+          const std::vector<Setting>& settings = {}) {
+  return parse_graph(graph_with(sections), "g.json", registry(), settings, options);
 }
 
 std::vector<std::string> names(const Dag& dag) {
@@ -53,10 +53,10 @@ std::vector<std::string> paths(const Dag& dag) {
 
 /// Errors with their places and hints, one after the other; warnings, too, when nothing is wrong.
 std::string complaints(const std::string& text, const SweepOptions& options = {},
-                       const std::vector<Override>& overrides = {}) {
+                       const std::vector<Setting>& settings = {}) {
   std::vector<Diagnostic> findings;
   try {
-    findings = parse_graph(text, "g.json", registry(), overrides, options).warnings;
+    findings = parse_graph(text, "g.json", registry(), settings, options).warnings;
   } catch (const GraphError& error) {
     findings = error.findings();
   }
@@ -69,8 +69,8 @@ std::string complaints(const std::string& text, const SweepOptions& options = {}
 }
 
 std::string complaints_of(const std::string& sections, const SweepOptions& options = {},
-                          const std::vector<Override>& overrides = {}) {
-  return complaints(graph_with(sections), options, overrides);
+                          const std::vector<Setting>& settings = {}) {
+  return complaints(graph_with(sections), options, settings);
 }
 
 TEST(sweep, product_takes_every_combination_the_last_axis_fastest) {

@@ -147,7 +147,7 @@ struct Shelf {
 
 TEST_F(GivenTest, a_parameter_may_be_an_artifact_by_name_by_default_or_from_the_host) {
   Shelf shelf{{{"two.safetensors", numbers({2})}, {"three.safetensors", numbers({3})}}};
-  const auto value_with = [&](const std::string& text, const std::vector<Override>& sets,
+  const auto value_with = [&](const std::string& text, const std::vector<Setting>& sets,
                               const std::map<std::string, ArtifactPtr>& given) {
     const Dag dag = parse_graph(text, folder.file("graph.json"), registry, sets, {}, given, shelf.find());
     EXPECT_EQ(dag.params.at("numbers"), dag.nodes.at(0).kind.given()->artifact->digest().hex());
@@ -165,7 +165,7 @@ TEST_F(GivenTest, a_parameter_may_be_an_artifact_by_name_by_default_or_from_the_
 TEST_F(GivenTest, what_is_wrong_with_an_artifact_parameter_is_said_where_it_is) {
   Shelf shelf{{{"letters", Artifact::seal("Letters", 1, {}, "{}", nullptr)},
                {"halves", Artifact::seal("Numbers", 1, {}, R"({"count":0,"first":null})", nullptr)}}};
-  const auto problem_with = [&](const std::string& text, const std::vector<Override>& sets) {
+  const auto problem_with = [&](const std::string& text, const std::vector<Setting>& sets) {
     try {
       parse_graph(text, folder.file("graph.json"), registry, sets, {}, {}, shelf.find());
     } catch (const GraphError& error) {

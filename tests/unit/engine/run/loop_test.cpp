@@ -41,18 +41,18 @@ struct LoopTest : testing::Test {
     toy::reset();
   }
 
-  /// zero and one -> loop -> out; `settings` of the loop begin with a comma.
-  Dag graph(const std::string& body, const std::string& until, const std::string& settings = "",
-            const std::vector<Override>& overrides = {}) {
+  /// zero and one -> loop -> out; `fields` of the loop begin with a comma.
+  Dag graph(const std::string& body, const std::string& until, const std::string& fields = "",
+            const std::vector<Setting>& settings = {}) {
     test::write_file(folder.file("body.json"), body);
     return parse_graph(R"({ "nodes": {
         "zero": { "type": "Source", "params": { "value": 0, "count": 1 } },
         "one": { "type": "Source", "params": { "value": 1, "count": 1 } },
         "loop": { "loop": "body.json", "inputs": { "n": "zero.numbers", "one": "one.numbers" },
                   "until": ")" +
-                           until + "\"" + settings + R"( } },
+                           until + "\"" + fields + R"( } },
       "outputs": { "n": "loop.n" } })",
-                       folder.file("graph.json"), registry, overrides);
+                       folder.file("graph.json"), registry, settings);
   }
 
   std::shared_ptr<Store> store() { return Store::open({folder.path() + "/cache", false}); }

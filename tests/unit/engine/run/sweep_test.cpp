@@ -24,7 +24,7 @@ struct SweepRun : testing::Test {
   }
 
   /// source -> round -> step -> step
-  Dag graph(const std::string& sections, const std::vector<Override>& overrides = {}) {
+  Dag graph(const std::string& sections, const std::vector<Setting>& settings = {}) {
     return parse_graph("{" + sections + R"(
       "params": { "value": { "kind": "number", "default": 1.5 }, "by": { "kind": "number", "default": 1 },
                   "fail_at": { "kind": "number", "default": -1 } },
@@ -35,7 +35,7 @@ struct SweepRun : testing::Test {
         "last":   { "type": "Step", "inputs": { "numbers": "step.numbers" }, "params": { "fail_at": "${fail_at}" } }
       },
       "outputs": { "numbers": "last.numbers" } })",
-                       "g.json", registry, overrides);
+                       "g.json", registry, settings);
   }
   RunResult run(const Dag& dag, std::shared_ptr<Store> store, bool keep_going = false) {
     RunOptions options;

@@ -14,8 +14,8 @@ namespace ballflow {
 namespace {
 
 struct DotTest : testing::Test {
-  Dag parse(const std::string& text, const std::vector<Override>& overrides = {}) {
-    return parse_graph(text, folder.file("graph.json"), registry, overrides);
+  Dag parse(const std::string& text, const std::vector<Setting>& settings = {}) {
+    return parse_graph(text, folder.file("graph.json"), registry, settings);
   }
   static std::vector<std::smatch> all(const std::string& text, const std::string& pattern) {
     const std::regex regex(pattern);

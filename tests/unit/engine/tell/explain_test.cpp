@@ -31,7 +31,7 @@ struct ExplainTest : testing::Test {
   }
 
   /// source -> round -> sum(round, other) -> loop -> last
-  Dag graph(const std::vector<Override>& overrides = {}) {
+  Dag graph(const std::vector<Setting>& settings = {}) {
     return parse_graph(R"({ "nodes": {
         "source": { "type": "Source", "params": { "value": 1.5 } },
         "other": { "type": "Source", "params": { "value": 2 } },
@@ -40,7 +40,7 @@ struct ExplainTest : testing::Test {
         "loop": { "loop": "body.json", "inputs": { "n": "sum.sum", "one": "other.numbers" }, "until": "n.first >= 9" },
         "last": { "type": "Round", "inputs": { "numbers": "loop.n" } } },
       "outputs": { "n": "last.rounded" } })",
-                       folder.file("graph.json"), registry, overrides);
+                       folder.file("graph.json"), registry, settings);
   }
   /// Runs, and reads the records back as a command does.
   NodeRecords run(const Dag& dag) {
