@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <numeric>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -34,43 +32,6 @@ float load_of(std::span<const std::int32_t> row, const float* u) {
   return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
-/// The loads of all rows. Rows of one length are summed up one after the other, from a copy of the matrix in
-/// that order: where the lengths change all the time the end of every row is mispredicted, which takes a
-/// third of the time.
-class Loads {
- public:
-  Loads(const Part& part, Monitor& monitor) : order_(part.rows.size()), loads_(part.rows.size()) {
-    Lookout look(monitor);
-    std::iota(order_.begin(), order_.end(), 0);
-    std::stable_sort(order_.begin(), order_.end(), [&](std::int32_t a, std::int32_t b) {
-      return part.rows.degree(static_cast<std::size_t>(a)) < part.rows.degree(static_cast<std::size_t>(b));
-    });
-    entries_.reserve(part.rows.entries.size());
-    for (const std::int32_t i : order_) {
-      const auto row = part.rows[static_cast<std::size_t>(i)];
-      look(row.size());
-      entries_.insert(entries_.end(), row.begin(), row.end());
-      ends_.push_back(entries_.size());
-    }
-  }
-
-  const Reals& of(const Reals& u, Lookout& look) {
-    std::size_t begin = 0;
-    for (std::size_t k = 0; k < order_.size(); ++k) {
-      const std::span<const std::int32_t> row(entries_.data() + begin, ends_[k] - begin);
-      look(row.size());
-      loads_[static_cast<std::size_t>(order_[k])] = load_of(row, u.data());
-      begin = ends_[k];
-    }
-    return loads_;
-  }
-
- private:
-  std::vector<std::int32_t> order_, entries_;
-  std::vector<std::size_t> ends_;
-  Reals loads_;  // by row of the part
-};
-
 /// The multipliers of the best bound L(u) that was met.
 Reals climb(const Part& part, const LagrangianBoundOptions& options, Monitor& monitor) {
   const std::size_t rows = part.rows.size(), columns = part.columns.size();
@@ -86,12 +47,6 @@ Reals climb(const Part& part, const LagrangianBoundOptions& options, Monitor& mo
     u[c] = 1.0F / static_cast<float>(longest);
   }
   Reals best = u, direction(columns), slope(columns);
-  struct Overload {
-    std::int32_t row;
-    float load;
-  };
-  std::vector<Overload> over(rows);
-  Loads loads(part, monitor);
   const auto upper = static_cast<double>(greedy_rows(part.rows, columns, monitor).size());
   const auto momentum = static_cast<float>(options.momentum);
   double best_bound = 0, factor = 1;
@@ -101,19 +56,13 @@ Reals climb(const Part& part, const LagrangianBoundOptions& options, Monitor& mo
     double bound = 0;
     for (std::size_t c = 0; c < columns; ++c) bound += static_cast<double>(u[c]);
     std::fill(slope.begin(), slope.end(), 1.0F);
-    // Which rows are loaded too much looks random to the machine: it is written down without a jump that
-    // depends on it, and looked at afterwards.
-    std::size_t overloaded = 0;
-    const Reals& load = loads.of(u, look);
     for (std::size_t i = 0; i < rows; ++i) {
-      over[overloaded] = {static_cast<std::int32_t>(i), load[i]};
-      overloaded += load[i] > 1 ? 1 : 0;
-    }
-    for (std::size_t k = 0; k < overloaded; ++k) {
-      const auto [i, excess] = over[k];
-      bound -= static_cast<double>(excess) - 1;
-      for (const std::int32_t c : part.rows[static_cast<std::size_t>(i)])
-        slope[static_cast<std::size_t>(c)] -= 1;
+      const auto row = part.rows[i];
+      look(row.size());
+      const float load = load_of(row, u.data());
+      if (load <= 1) continue;
+      bound -= static_cast<double>(load) - 1;
+      for (const std::int32_t c : row) slope[static_cast<std::size_t>(c)] -= 1;
     }
     if (bound > best_bound * (1 + 1e-7)) {
       best_bound = bound;
@@ -128,7 +77,7 @@ Reals climb(const Part& part, const LagrangianBoundOptions& options, Monitor& mo
     double norm = 0;
     for (std::size_t c = 0; c < columns; ++c) {
       // A multiplier of 0 cannot fall.
-      const float s = u[c] <= 0 ? std::max(slope[c], 0.0F) : slope[c];
+      const float s = u[c] <= 0 && slope[c] < 0 ? 0.0F : slope[c];
       direction[c] = t == 0 ? s : momentum * direction[c] + (1 - momentum) * s;
       norm += static_cast<double>(direction[c]) * static_cast<double>(direction[c]);
     }
