@@ -1,13 +1,17 @@
 #include "power/alpha_classes.hpp"
 
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "base/disjoint_sets.hpp"
+#include "base/lists.hpp"
 #include "exact/ball_predicates.hpp"
 
 namespace ballflow::geometry {
@@ -68,29 +72,6 @@ void sort(Cell& c) {
   order(1, 3);
   order(1, 2);
 }
-
-/// Lists of equal things side by side: first the number of every list is counted, then they are filled.
-template <class T>
-class Lists {
- public:
-  explicit Lists(std::size_t lists) : end_(lists + 1) {}
-  void count(std::int32_t list) { ++end_[at(list) + 1]; }
-  void allocate() {
-    std::partial_sum(end_.begin(), end_.end(), end_.begin());
-    values_.resize(end_.back());
-    end_.pop_back();  // end_[i] is where list i begins until it is filled
-  }
-  void put(std::int32_t list, const T& value) { values_[end_[at(list)]++] = value; }
-  /// Only after all is put.
-  std::span<T> operator[](std::size_t list) {
-    const std::size_t begin = list == 0 ? 0 : end_[list - 1];
-    return {values_.data() + begin, end_[list] - begin};
-  }
-
- private:
-  std::vector<std::size_t> end_;
-  std::vector<T> values_;
-};
 
 /// A facet seen from one of its vertices: the two others and its status, in a number that sorts by vertices.
 class Side {
@@ -184,10 +165,10 @@ class Classification {
       Cell cell = mesh_.cells[c];
       sort(cell);
       inside.push_back(cell);
-      by_lowest.count(cell[0]);
+      by_lowest.count(at(cell[0]));
     }
     by_lowest.allocate();
-    for (const Cell& c : inside) by_lowest.put(c[0], {c[1], c[2], c[3]});
+    for (const Cell& c : inside) by_lowest.put(at(c[0]), {c[1], c[2], c[3]});
     tetrahedra_.reserve(inside.size());
     for (std::size_t v = 0; v < vertices_.size(); ++v) {
       const auto rest = by_lowest[v];
@@ -248,57 +229,91 @@ class Classification {
     Lists<Side> own(vertices_.size()),
         far(vertices_.size());  // facets by their lowest and by their middle vertex
     for (const auto& [f, status] : facets_) {
-      own.count(f[0]);
-      far.count(f[1]);
+      own.count(at(f[0]));
+      far.count(at(f[1]));
     }
     own.allocate();
     far.allocate();
-    std::size_t triangles = 0;
     for (const auto& [f, status] : facets_) {
-      own.put(f[0], {f[1], f[2], status});
-      far.put(f[1], {f[2], f[0], status});
-      triangles += status != Status::out ? 1U : 0U;
+      own.put(at(f[0]), {f[1], f[2], status});
+      far.put(at(f[1]), {f[2], f[0], status});
     }
     monitor_.step(0.65);
     facets_ = {};
+
+    // Blocks of vertices on all cores; what they find is put together in their order.
+    constexpr std::size_t block = 512;
+    std::vector<Upwards> found((vertices_.size() + block - 1) / block);
+    tbb::enumerable_thread_specific<Scratch> scratch([this] { return Scratch(vertices_.size()); });
+    std::atomic<std::size_t> done{0};
+    tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t b) {
+      monitor_.step(0.65 + 0.25 * static_cast<double>(done++) / static_cast<double>(found.size()));
+      Scratch& own_scratch = scratch.local();
+      for (std::size_t u = b * block; u < std::min(vertices_.size(), (b + 1) * block); ++u)
+        look_upwards(static_cast<std::int32_t>(u), own[u], far[u], own_scratch, found[b]);
+    });
+    std::size_t triangles = 0, edges = 0;
+    for (const Upwards& part : found) {
+      triangles += part.triangles.size();
+      edges += part.edges.size();
+    }
     triangles_.reserve(triangles);
     triangle_classes_.reserve(triangles);
-    edges_.reserve(triangles * 3 / 4);
-    edge_classes_.reserve(triangles * 3 / 4);
+    edges_.reserve(edges);
+    edge_classes_.reserve(edges);
+    for (Upwards& part : found) {
+      triangles_.insert(triangles_.end(), part.triangles.begin(), part.triangles.end());
+      triangle_classes_.insert(triangle_classes_.end(), part.triangle_classes.begin(),
+                               part.triangle_classes.end());
+      for (const auto& [edge, status] : part.edges) add_edge(edge, status);
+      part = {};
+    }
+    monitor_.step(0.95);
+  }
 
-    std::vector<std::int32_t> place(vertices_.size(), -1);  // of the edge from u to a vertex, in `around`
-    std::vector<std::pair<std::int32_t, Cofaces>> around;   // upper ends of the edges from u
-    for (std::size_t u = 0; u < vertices_.size(); ++u) {
-      if (u % 256 == 0)
-        monitor_.step(0.65 + 0.3 * static_cast<double>(u) / static_cast<double>(vertices_.size()));
-      const auto lowest = static_cast<std::int32_t>(u);
-      const std::span<Side> facets = own[u], others = far[u];
-      std::sort(facets.begin(), facets.end());
-      around.clear();
-      const auto join = [&](std::int32_t v, Status status) {
-        if (place[at(v)] < 0) {
-          place[at(v)] = static_cast<std::int32_t>(around.size());
-          around.emplace_back(v, Cofaces());
-        }
-        around[at(place[at(v)])].second.join(status);
-      };
-      for (const Side side : facets) {
-        join(side.first(), side.status());
-        join(side.second(), side.status());
-        if (side.status() == Status::out) continue;
-        triangles_.push_back({lowest, side.first(), side.second()});
-        triangle_classes_.push_back(static_cast<std::uint8_t>(simplex_class(side.status())));
+  /// The triangles and edges of which some vertices are the lowest, ascending; of the edges all.
+  struct Upwards {
+    std::vector<Facet> triangles;
+    std::vector<std::uint8_t> triangle_classes;
+    std::vector<std::pair<Edge, Status>> edges;
+  };
+  /// What a thread needs to look upwards from a vertex.
+  struct Scratch {
+    explicit Scratch(std::size_t vertices) : place(vertices, -1) {}
+    std::vector<std::int32_t> place;                       // of the edge to a vertex, in `around`; else -1
+    std::vector<std::pair<std::int32_t, Cofaces>> around;  // upper ends of the edges
+  };
+
+  /// From vertex u, with the facets of which it is the lowest and the middle vertex.
+  void look_upwards(std::int32_t u, std::span<Side> facets, std::span<const Side> others, Scratch& scratch,
+                    Upwards& found) const {
+    auto& [place, around] = scratch;
+    std::sort(facets.begin(), facets.end());
+    around.clear();
+    const auto join = [&scratch](std::int32_t v, Status status) {
+      std::int32_t& number = scratch.place[at(v)];
+      if (number < 0) {
+        number = static_cast<std::int32_t>(scratch.around.size());
+        scratch.around.emplace_back(v, Cofaces());
       }
-      for (const Side side : others) join(side.first(), side.status());
-      for (const auto& [v, cofaces] : around) place[at(v)] = -1;
-      std::sort(around.begin(), around.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-      for (const auto& [v, cofaces] : around) {
-        Status status = cofaces.status();
-        const Edge edge{lowest, v};
-        if (status == Status::out && predicates_.meets(edge) && !attached(edge, facets, others))
-          status = Status::singular;
-        add_edge(edge, status);
-      }
+      scratch.around[at(number)].second.join(status);
+    };
+    for (const Side side : facets) {
+      join(side.first(), side.status());
+      join(side.second(), side.status());
+      if (side.status() == Status::out) continue;
+      found.triangles.push_back({u, side.first(), side.second()});
+      found.triangle_classes.push_back(static_cast<std::uint8_t>(simplex_class(side.status())));
+    }
+    for (const Side side : others) join(side.first(), side.status());
+    for (const auto& [v, cofaces] : around) place[at(v)] = -1;
+    std::sort(around.begin(), around.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& [v, cofaces] : around) {
+      Status status = cofaces.status();
+      const Edge edge{u, v};
+      if (status == Status::out && predicates_.meets(edge) && !attached(edge, facets, others))
+        status = Status::singular;
+      found.edges.emplace_back(edge, status);
     }
   }
 

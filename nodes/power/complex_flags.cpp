@@ -1,7 +1,11 @@
 #include "power/complex_flags.hpp"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <utility>
 
@@ -34,35 +38,48 @@ std::array<std::int32_t, 3> facet_of(const std::array<std::int32_t, 4>& cell, st
   return f;
 }
 
+/// Calls body(c) for all cells, on all cores, and shows it as half of the work from `from` on.
+template <class Body>
+void for_cells(std::size_t cells, double from, Monitor& monitor, const Body& body) {
+  std::atomic<std::size_t> done{0};
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells, 4096), [&](const auto& range) {
+    monitor.step(from + 0.5 * static_cast<double>(done) / static_cast<double>(cells));
+    for (std::size_t c = range.begin(); c != range.end(); ++c) body(c);
+    done += range.size();
+  });
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> complex_flags(const CellTable& table, const BallPredicates& predicates,
                                         Monitor& monitor) {
   const std::size_t n = table.size();
   std::vector<std::uint8_t> flags(n);
-  const auto step = [&](double from, std::size_t c) {
-    if (c % 4096 == 0) monitor.step(from + 0.5 * static_cast<double>(c) / static_cast<double>(n));
-  };
-  for (std::size_t c = 0; c < n; ++c) {
-    step(0, c);
+  for_cells(n, 0, monitor, [&](std::size_t c) {
     const auto& cell = table.cells[c];
-    if (!finite(cell)) continue;
+    if (!finite(cell)) return;
     const bool meets = table.dimension == 3   ? top_meets<4>(cell, predicates)
                        : table.dimension == 2 ? top_meets<3>(cell, predicates)
                        : table.dimension == 1 ? top_meets<2>(cell, predicates)
                                               : table.dimension == 0;
     if (meets) flags[c] = whole;
-  }
+  });
   if (table.dimension < 3) return flags;
-  for (std::size_t c = 0; c < n; ++c) {
-    step(0.5, c);
+  // Now threads meet at a cell: each raises other bits of it, and none changes `whole`.
+  const auto is_whole = [&](std::size_t c) {
+    return (std::atomic_ref(flags[c]).load(std::memory_order_relaxed) & whole) != 0;
+  };
+  const auto raise = [&](std::size_t c, std::size_t k) {
+    std::atomic_ref(flags[c]).fetch_or(static_cast<std::uint8_t>(1U << k), std::memory_order_relaxed);
+  };
+  for_cells(n, 0.5, monitor, [&](std::size_t c) {
     for (std::size_t k = 0; k < 4; ++k) {
       const std::size_t other = at(table.neighbors[c][k]);
       if (other < c) continue;  // met from the other side
       const auto& around = table.neighbors[other];
       const auto back = static_cast<std::size_t>(
           std::find(around.begin(), around.end(), static_cast<std::int32_t>(c)) - around.begin());
-      bool in = ((flags[c] | flags[other]) & whole) != 0;
+      bool in = is_whole(c) || is_whole(other);
       if (!in) {
         const auto facet = facet_of(table.cells[c], k);
         if (facet[0] == infinite || !predicates.meets(facet)) continue;
@@ -72,10 +89,10 @@ std::vector<std::uint8_t> complex_flags(const CellTable& table, const BallPredic
         in = !attaches(table.cells[c][k]) && !attaches(table.cells[other][back]);
       }
       if (!in) continue;
-      flags[c] |= static_cast<std::uint8_t>(1U << k);
-      flags[other] |= static_cast<std::uint8_t>(1U << back);
+      raise(c, k);
+      raise(other, back);
     }
-  }
+  });
   return flags;
 }
 
