@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/monitor.hpp"
+#include "base/shared_progress.hpp"
 
 namespace ballflow::geometry {
 
@@ -21,10 +22,10 @@ template <class Result, class Body>
 std::vector<Result> by_blocks(std::size_t count, std::size_t block, Monitor& monitor, const Body& body) {
   const std::size_t blocks = (count + block - 1) / block;
   std::vector<Result> results(blocks);
-  std::atomic<std::size_t> done{0};
+  SharedProgress progress(monitor, blocks);
   tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
     body(b * block, std::min(count, (b + 1) * block), results[b]);
-    monitor.step(static_cast<double>(++done) / static_cast<double>(blocks));
+    progress.advance(1);
   });
   return results;
 }

@@ -4,7 +4,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -12,6 +11,7 @@
 
 #include "base/disjoint_sets.hpp"
 #include "base/lists.hpp"
+#include "base/shared_progress.hpp"
 #include "exact/ball_predicates.hpp"
 
 namespace ballflow::geometry {
@@ -245,12 +245,12 @@ class Classification {
     constexpr std::size_t block = 512;
     std::vector<Upwards> found((vertices_.size() + block - 1) / block);
     tbb::enumerable_thread_specific<Scratch> scratch([this] { return Scratch(vertices_.size()); });
-    std::atomic<std::size_t> done{0};
+    SharedProgress progress(monitor_, found.size(), 0.65, 0.9);
     tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t b) {
-      monitor_.step(0.65 + 0.25 * static_cast<double>(done++) / static_cast<double>(found.size()));
       Scratch& own_scratch = scratch.local();
       for (std::size_t u = b * block; u < std::min(vertices_.size(), (b + 1) * block); ++u)
         look_upwards(static_cast<std::int32_t>(u), own[u], far[u], own_scratch, found[b]);
+      progress.advance(1);
     });
     std::size_t triangles = 0, edges = 0;
     for (const Upwards& part : found) {

@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "base/shared_progress.hpp"
+
 namespace ballflow::geometry {
 namespace {
 
@@ -41,11 +43,10 @@ std::array<std::int32_t, 3> facet_of(const std::array<std::int32_t, 4>& cell, st
 /// Calls body(c) for all cells, on all cores, and shows it as half of the work from `from` on.
 template <class Body>
 void for_cells(std::size_t cells, double from, Monitor& monitor, const Body& body) {
-  std::atomic<std::size_t> done{0};
+  SharedProgress progress(monitor, cells, from, from + 0.5);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells, 4096), [&](const auto& range) {
-    monitor.step(from + 0.5 * static_cast<double>(done) / static_cast<double>(cells));
     for (std::size_t c = range.begin(); c != range.end(); ++c) body(c);
-    done += range.size();
+    progress.advance(range.size());
   });
 }
 
