@@ -37,7 +37,7 @@ struct Event {
   std::uint64_t bytes = 0;             // cache_*: of the artifact
   double seconds = 0;                  // cache_*: how long it took
   double time = 0;                     // seconds since the run began
-  std::uint64_t memory = 0;            // sum of the estimates of the nodes that run now
+  std::uint64_t memory = 0;  // what running nodes claim, and outputs that are held (RunOptions::memory_bytes)
 };
 
 /// Receives events one at a time, from any thread.

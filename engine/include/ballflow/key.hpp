@@ -5,7 +5,8 @@
 // each length-prefixed and type-tagged (doubles as IEEE bits, -0 as 0):
 //   {"format":2,"node":"Enlarge","version":1,"libraries":{...},"params":{...},"seed":null,
 //    "inputs":{"balls":{"type":"Balls","version":1,"digest":"..."}}}
-// A loop has "body" too: {"nodes":{"0:Reduce":{...,"inputs":{"cover":"inputs.cover"}}},"states":{...}}.
+// A loop has "body" too: {"nodes":{"0:Reduce":{...,"inputs":{"cover":"inputs.cover"},
+//   "input_types":{"cover":{"type":"CoverState","version":1}},"output_types":{...}}},"states":{...}}.
 // A file parameter appears as {"file":{"digest":"...","format":"off.gz"}}. A node of a library outside the
 // installed folder has "library_file", the SHA-256 of that file: it may be built anew any time without
 // another version.

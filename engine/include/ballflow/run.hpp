@@ -21,8 +21,13 @@ namespace ballflow {
 class Executor;
 
 struct RunOptions {
-  unsigned threads = 0;            // 0: all cores
-  std::uint64_t memory_bytes = 0;  // budget for the estimates of running nodes; 0: 80 % of the memory
+  unsigned threads = 0;  // 0: all processors that this process may use: affinity and control groups count
+  /// Budget for what running nodes need, with their outputs, and for outputs that are held: each until its
+  /// last consumer has ended, those of the graph that are not stored until the end. What is mapped from the
+  /// store does not count, because the system can take it back. Exceeded only by one node alone that could
+  /// never run otherwise, and by outputs larger than anybody could foresee. 0: 80 % of the memory that this
+  /// process may use.
+  std::uint64_t memory_bytes = 0;
   std::uint64_t seed = 0;
   const std::atomic<bool>* cancel = nullptr;  // polled; set it from anywhere to cancel
 
@@ -62,7 +67,7 @@ struct NodeResult {
   std::vector<std::string> warnings;
   std::optional<std::int64_t> iterations;  // of a loop that ran
   std::string cause, hint;                 // of a failure
-  bool deterministic = true;               // false: two executions with the same key gave different results
+  bool deterministic = true;               // false: its result disagreed with another one of the same key
   std::optional<FailedCall> failed_call;   // of a failure while it ran
 };
 
@@ -128,8 +133,8 @@ std::optional<ActionEntry> find_entry(Store& store, const NodeKind& kind, const 
 /// What an entry says of one output.
 OutputEntry output_entry(const std::string& port, const Artifact& artifact);
 
-/// A budget for the estimates of running nodes: "8G", bytes, or "50%" of the memory of this machine. Empty
-/// for anything else.
+/// A budget of memory: "8G", bytes, or "50%" of what this process may use (of the machine, or of the limit of
+/// its control groups). Empty for anything else.
 std::optional<std::uint64_t> parse_memory(std::string_view text);
 
 /// What differs between two key manifests, each difference in words: "params.epsilon 0.3 -> 0.5", "Enlarge

@@ -20,10 +20,11 @@ ArtifactPtr Runner::Impl::artifact(const EdgeRef& output) {
   }
 }
 
-/// Whether the artifact is in memory or in the store.
+/// Whether the artifact is in memory or in the store, or soon will be.
 bool Runner::Impl::is_at_hand(const EdgeRef& edge, const OutputEntry& entry) {
   {
-    const std::lock_guard lock(states_[edge.node]->mutex);
+    const std::unique_lock lock(states_[edge.node]->mutex, std::try_to_lock);
+    if (!lock.owns_lock()) return true;  // another reader is just making it again
     if (states_[edge.node]->held.count(edge.port) != 0) return true;
   }
   return store_->has_blob(entry);
@@ -48,11 +49,19 @@ ArtifactPtr Runner::Impl::load(const EdgeRef& edge, const OutputEntry& entry, st
   return artifact;
 }
 
-/// Equal inputs and parameters gave another result than before.
+/// Keeps what a node made until its last consumer has ended; the caller has locked the state.
+void Runner::Impl::keep(State& state, const std::map<std::string, ArtifactPtr>& artifacts) {
+  for (const auto& [port, artifact] : artifacts) budget_->hold(artifact);
+  for (const auto& [port, artifact] : state.held) budget_->let_go(artifact);
+  state.held = artifacts;
+}
+
+/// Equal inputs and parameters gave another result than before. Told once.
 void Runner::Impl::disagree(std::size_t i) {
+  bool first = false;
   {
     const std::lock_guard lock(mutex_);
-    nondeterministic_.insert(i);
+    first = nondeterministic_.insert(i).second;
   }
   const std::string what = "not deterministic: equal inputs and parameters gave another result";
   if (options_.strict) {
@@ -60,7 +69,7 @@ void Runner::Impl::disagree(std::size_t i) {
         ExitCode::node_failed, dag_.nodes[i].path + " is " + what + " than the one in the cache",
         "see what differs with --check-determinism; without --strict the new result replaces the old one");
   }
-  message(i, true, what + "; what depends on it is computed anew");
+  if (first) message(i, true, what + "; what depends on it is computed anew");
 }
 
 /// The artifact of a resolved node: held in memory, read from the store, or made again for `reader`.
@@ -107,7 +116,7 @@ ArtifactPtr Runner::Impl::ensure(const EdgeRef& edge, std::size_t reader) {
     result.cpu_seconds += outcome.cpu_seconds;
     result.iterations = outcome.iterations;
   }
-  state.held = outcome.outputs;
+  keep(state, outcome.outputs);
   Event event{Event::Kind::node_finished, edge.node};
   event.result = &result;
   emit(std::move(event));
@@ -125,6 +134,7 @@ void Runner::Impl::forget(std::size_t i) {
     if (wanted && (entry == nullptr || !store_->has_blob(*entry))) {
       ++held;
     } else {
+      budget_->let_go(held->second);
       held = state.held.erase(held);
     }
   }

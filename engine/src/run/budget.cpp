@@ -2,7 +2,7 @@
 
 #include "ballflow/gc.hpp"
 #include "ballflow/run.hpp"
-#include "base/process_usage.hpp"
+#include "base/usable.hpp"
 
 namespace ballflow {
 
@@ -12,7 +12,7 @@ std::optional<std::uint64_t> parse_memory(std::string_view text) {
     const auto parsed = std::from_chars(text.data(), text.data() + text.size() - 1, percent);
     if (parsed.ec != std::errc() || parsed.ptr != text.data() + text.size() - 1) return std::nullopt;
     if (percent == 0 || percent > 100) return std::nullopt;
-    return physical_memory_bytes() / 100 * percent;
+    return usable_memory_bytes() / 100 * percent;
   }
   const auto bytes = parse_size(text);
   if (!bytes || *bytes == 0 || *bytes == no_limit) return std::nullopt;

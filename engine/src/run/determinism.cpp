@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
-#include <thread>
 
+#include "base/usable.hpp"
 #include "run/runner.hpp"
 
 namespace ballflow {
@@ -94,7 +94,7 @@ std::string first_difference(const std::map<std::string, ArtifactPtr>& a,
 }
 
 unsigned several_threads(const RunOptions& options) {
-  const unsigned threads = options.threads == 0 ? std::thread::hardware_concurrency() : options.threads;
+  const unsigned threads = options.threads == 0 ? usable_processors() : options.threads;
   return std::max(2u, threads);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/quote.hpp"
 #include "run/loop.hpp"
 #include "run/runner.hpp"
 
@@ -23,6 +24,16 @@ constexpr std::uint64_t worth_waiting_for = 64u << 20;
 
 /// Nodes slower than this are flushed to the disk before they are published.
 constexpr double sync_seconds = 1.0;
+
+void require_output(const PortDecl& port, const ExecutionOutcome& outcome) {
+  const auto made = outcome.outputs.find(port.name);
+  if (made != outcome.outputs.end() && made->second != nullptr && made->second->type() == port.type &&
+      made->second->version() == port.type_version)
+    return;
+  throw Error(ExitCode::plugin,
+              "the executor gave no output " + in_quotes(port.name) + " of type " + port.type,
+              "this is a bug of the executor; please report it");
+}
 
 }  // namespace
 
@@ -56,14 +67,43 @@ NodeStatus Runner::Impl::execute_and_publish(std::size_t i) {
     return outcome.status == ExecutionOutcome::Status::failed ? NodeStatus::failed : NodeStatus::cancelled;
   }
   check_files(i);
-  // A forced node has an entry as a rule.
-  if (options_.force.count(i) != 0) {
-    if (const auto entry = known_entry(i); entry && !same_digests(entry->outputs, outcome)) disagree(i);
-  }
+  compare_with_earlier(i, outcome);
   result.outputs = publish(i, outcome);
+  output_sizes_.add(dag_.nodes[i].kind.type(), input_bytes(i), bytes_of(result.outputs));
+  {
+    const std::lock_guard lock(mutex_);
+    force_.erase(i);
+  }
   const std::lock_guard lock(state.mutex);
-  state.held = outcome.outputs;
+  keep(state, outcome.outputs);
   return NodeStatus::run;
+}
+
+/// Whatever made the node run: where there is a result of its key already, of an equal node of this run or in
+/// the store, it must be the same. There is one when the node was forced, when another process was not kept
+/// out by a lock, or when the entry does not give what the node declares now.
+void Runner::Impl::compare_with_earlier(std::size_t i, const ExecutionOutcome& outcome) {
+  const Digest& key = *states_[i]->key;
+  std::optional<std::vector<OutputEntry>> earlier;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto replaced = replaced_.find(key);
+    const auto flight = flights_.find(key);
+    if (replaced != replaced_.end()) {
+      earlier = replaced->second.outputs;
+    } else if (flight != flights_.end() && flight->second.settled != nobody) {
+      earlier = result_.nodes[flight->second.settled].outputs;
+    }
+  }
+  if (!earlier) {
+    if (auto entry = store_->peek_action(key)) earlier = std::move(entry->outputs);
+  }
+  if (!earlier || same_digests(*earlier, outcome)) return;
+  if (gives_declared(*earlier, dag_.nodes[i].kind.outputs())) return disagree(i);
+  message(i, true,
+          "its entry in the cache has other outputs or types than the node declares now, and is replaced: "
+          "the author "
+          "has not raised the behaviour version");
 }
 
 ExecutionOutcome Runner::Impl::execute(std::size_t i, unsigned threads) {
@@ -82,6 +122,9 @@ ExecutionOutcome Runner::Impl::execute(std::size_t i, unsigned threads) {
     if (!outcome.failed_call) outcome.failed_call = InnerCall{&node, request.inputs};
     // Whatever they cost to make again: the call can then be repeated alone.
     for (const auto& [port, artifact] : outcome.failed_call->inputs) store_->put_blob(*artifact, false);
+  }
+  if (outcome.status == ExecutionOutcome::Status::ok) {
+    for (const PortDecl& port : node.kind.outputs()) require_output(port, outcome);
   }
   request.inputs.clear();
   for (const auto& [port, edge] :
@@ -127,7 +170,11 @@ std::vector<OutputEntry> Runner::Impl::publish(std::size_t i, const ExecutionOut
     event.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     emit(std::move(event));
   }
-  store_->put_action(*states_[i]->key, entry, outcome.seconds > sync_seconds);
+  const ActionPut put = store_->put_action(*states_[i]->key, entry, outcome.seconds > sync_seconds);
+  // Another process has left a result meanwhile.
+  if (put.disagreed && gives_declared(put.disagreed->outputs, dag_.nodes[i].kind.outputs()) &&
+      !same_digests(put.disagreed->outputs, outcome))
+    disagree(i);
   return std::move(entry.outputs);
 }
 

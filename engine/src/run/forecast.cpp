@@ -79,4 +79,24 @@ std::optional<Past::Guess> Past::guess(const std::string& text, std::uint64_t in
   return guess;
 }
 
+void OutputSizes::add(const std::string& type, std::uint64_t input_bytes, std::uint64_t output_bytes) {
+  const std::lock_guard lock(mutex_);
+  Most& most = most_[type];
+  if (input_bytes == 0) {
+    most.without_inputs = std::max(most.without_inputs, output_bytes);
+  } else {
+    most.per_input_byte =
+        std::max(most.per_input_byte, static_cast<double>(output_bytes) / static_cast<double>(input_bytes));
+  }
+}
+
+std::optional<std::uint64_t> OutputSizes::expect(const std::string& type, std::uint64_t input_bytes) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = most_.find(type);
+  if (found == most_.end()) return std::nullopt;
+  if (input_bytes == 0) return found->second.without_inputs;
+  return static_cast<std::uint64_t>(
+      std::ceil(found->second.per_input_byte * static_cast<double>(input_bytes)));
+}
+
 }  // namespace ballflow

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <map>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "ballflow/gc.hpp"
@@ -37,6 +39,23 @@ class Past {
   std::optional<CacheContents> contents_;
   std::map<std::string, std::uint64_t> size_of_;  // by digest
   std::map<std::string, std::vector<Execution>> executions_;
+};
+
+/// How large the outputs of nodes of a type become, by those that have ended in this run: as many times the
+/// inputs as at most so far, or the most bytes of a node without inputs.
+class OutputSizes {
+ public:
+  void add(const std::string& type, std::uint64_t input_bytes, std::uint64_t output_bytes);
+  /// Nothing when there was none.
+  std::optional<std::uint64_t> expect(const std::string& type, std::uint64_t input_bytes) const;
+
+ private:
+  struct Most {
+    double per_input_byte = 0;
+    std::uint64_t without_inputs = 0;
+  };
+  mutable std::mutex mutex_;
+  std::unordered_map<std::string, Most> most_;
 };
 
 }  // namespace ballflow

@@ -122,6 +122,14 @@ Json node_manifest(const DagNode& node, Store& store) {
   return manifest;
 }
 
+/// Types and versions of ports. Outside of loops they come with the inputs; inside a body no artifact is
+/// looked at.
+Json port_types(const std::vector<PortDecl>& ports) {
+  Json types = Json::object();
+  for (const PortDecl& port : ports) types[port.name] = {{"type", port.type}, {"version", port.type_version}};
+  return types;
+}
+
 /// The nodes of a loop body by position and type, because names are in no key, and how they are connected.
 Json body_manifest(const Dag& body, Store& store) {
   const auto name = [&](std::size_t i) { return std::to_string(i) + ":" + body.nodes[i].kind.type(); };
@@ -133,6 +141,8 @@ Json body_manifest(const Dag& body, Store& store) {
     Json one = node_manifest(body.nodes[i], store);
     one["inputs"] = Json::object();
     for (const auto& [port, edge] : body.nodes[i].inputs) one["inputs"][port] = source(edge);
+    one["input_types"] = port_types(body.nodes[i].kind.inputs());
+    one["output_types"] = port_types(body.nodes[i].kind.outputs());
     nodes.get_ref<Json::object_t&>().emplace_back(name(i), std::move(one));  // names are unique
   }
   for (const DagOutput& output : body.outputs) states[output.name] = source(output.from);

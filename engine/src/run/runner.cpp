@@ -4,9 +4,9 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
-#include <thread>
 
 #include "base/process_usage.hpp"
+#include "base/usable.hpp"
 
 namespace ballflow {
 
@@ -39,8 +39,9 @@ Runner::Impl::Impl(const Dag& dag, const Registry& registry, std::shared_ptr<Sto
       events_(events),
       earlier_(std::move(earlier)),
       force_(options_.force) {
-  if (options_.threads == 0) options_.threads = std::max(1u, std::thread::hardware_concurrency());
-  if (options_.memory_bytes == 0) options_.memory_bytes = physical_memory_bytes() / 10 * 8;
+  if (options_.threads == 0) options_.threads = usable_processors();
+  if (options_.memory_bytes == 0) options_.memory_bytes = usable_memory_bytes() / 10 * 8;
+  budget_ = std::make_unique<MemoryBudget>(options_.memory_bytes);
   result_.nodes.resize(dag.nodes.size());
   for (const DagOutput& output : dag.outputs) wanted_.emplace(output.from.node, output.from.port);
   const std::set<std::size_t>& targets = options_.only.empty() ? options_.until : options_.only;
@@ -105,7 +106,7 @@ bool Runner::Impl::stopping() const { return cancelled() || stop_.load(std::memo
 
 /// What goes wrong while events are shown must not cost the results.
 void Runner::Impl::emit(Event event) noexcept {
-  event.memory = memory_used_.load(std::memory_order_relaxed);
+  event.memory = budget_->used();
   const std::lock_guard lock(events_mutex_);
   event.time = std::chrono::duration<double>(Clock::now() - start_).count();  // inside: times never go back
   try {
@@ -130,9 +131,7 @@ bool Runner::Impl::run_once() {
   for (std::size_t i = 0; i < dag_.nodes.size(); ++i) states_.push_back(std::make_unique<State>());
   flights_.clear();
   flights_.reserve(dag_.nodes.size());
-  deferred_.clear();
-  memory_used_ = 0;
-  running_ = 0;
+  budget_ = std::make_unique<MemoryBudget>(options_.memory_bytes);
   stop_ = false;
   stop_starting_ = false;
   void_ = false;
@@ -155,13 +154,20 @@ bool Runner::Impl::run_once() {
   }
 
   tbb::task_arena arena(static_cast<int>(options_.threads));
+  KeyWaits key_waits(*store_, options_.threads > 1, [this] { return stopping() || stop_starting_; });
+  arena_ = &arena;
+  key_waits_ = &key_waits;
   arena.execute([&] {
     tbb::task_group group;
     group_ = &group;
     for (const std::size_t i : ready) dispatch(i);
-    group.wait();
+    do {
+      group.wait();
+    } while (options_.threads == 1 && key_waits.wait());
     group_ = nullptr;
   });
+  arena_ = nullptr;
+  key_waits_ = nullptr;
   before_ = nullptr;
   if (void_ && !cancelled()) return false;
   name_what_did_not_run();
@@ -170,7 +176,6 @@ bool Runner::Impl::run_once() {
 
 /// Gives every node that is still pending its status and the reason.
 void Runner::Impl::name_what_did_not_run() {
-  constexpr std::size_t nobody = static_cast<std::size_t>(-1);
   std::vector<std::size_t> blame(dag_.nodes.size(), nobody);  // the node that kept this one from running
   for (std::size_t i = 0; i < dag_.nodes.size(); ++i) {
     NodeResult& node = result_.nodes[i];

@@ -29,12 +29,15 @@ std::string spoken(const Field& field) {
   if (field.path == "format") return "key format";
   if (field.path == "library_file") return "file of the node library";
   if (const auto library = behind(field.path, "libraries.")) return "library " + *library;
-  if (const auto input = behind(field.path, "inputs.")) {
-    const std::size_t dot = input->rfind('.');
-    if (dot == std::string::npos) return "input " + *input;
-    const std::string what = input->substr(dot + 1);
-    return "input " + input->substr(0, dot) + (what == "version" ? ": type version" : ": " + what);
-  }
+  const auto port = [](const std::string& kind, const std::string& path) {
+    const std::size_t dot = path.rfind('.');
+    if (dot == std::string::npos) return kind + path;
+    const std::string what = path.substr(dot + 1);
+    return kind + path.substr(0, dot) + (what == "version" ? ": type version" : ": " + what);
+  };
+  if (const auto input = behind(field.path, "inputs.")) return port("input ", *input);
+  if (const auto input = behind(field.path, "input_types.")) return port("input ", *input);
+  if (const auto output = behind(field.path, "output_types.")) return port("output ", *output);
   return field.path;
 }
 

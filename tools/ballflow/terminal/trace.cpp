@@ -26,6 +26,7 @@ class ChromeTrace final : public Trace {
   void on(const Event& event) override {
     switch (event.kind) {
       case Event::Kind::node_waiting:
+        end_wait(event);  // for memory, and now for a key
         waiting_[event.node] = {event.time, event.text};
         break;
       case Event::Kind::node_started:

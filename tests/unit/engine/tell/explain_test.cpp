@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <list>
+
 #include "ballflow/report.hpp"
 #include "run_nodes.hpp"
 #include "test_data.hpp"
@@ -69,6 +71,7 @@ struct ExplainTest : testing::Test {
     return result;
   }
 
+  std::list<NodeDeclaration> declarations;  // changed ones
   Registry registry;
   test::TempFolder folder;
   std::shared_ptr<Store> store = Store::open({folder.file("cache"), false});
@@ -160,6 +163,31 @@ TEST_F(ExplainTest, nodes_that_are_new_or_unknown_are_said_to_be_so) {
   }
   now.at("sum").manifest.clear();
   EXPECT_THROW(explain(before, now, "sum"), Error);
+}
+
+TEST_F(ExplainTest, another_version_of_a_type_inside_a_loop_is_another_key_and_is_named) {
+  // As when the layout of a type changes that only nodes of the body exchange.
+  const Dag dag = graph();
+  Dag other = graph();
+  for (DagNode& node : other.nodes) {
+    if (node.path != "loop") continue;
+    auto loop = std::make_shared<Loop>(*node.kind.loop());
+    for (DagNode& inner : loop->body.nodes) {
+      declarations.push_back(*inner.kind.declared());
+      NodeDeclaration& decl = declarations.back();
+      for (PortDecl& port : decl.id == "Step" ? decl.outputs : decl.inputs) {
+        if (decl.id == "Step" || port.name == "a") port.type_version = 2;
+      }
+      inner.kind = decl;
+    }
+    node.kind = std::shared_ptr<const Loop>(std::move(loop));
+  }
+  EXPECT_NE(action_key(*dag.find("loop"), {}, 0, *store).key,
+            action_key(*other.find("loop"), {}, 0, *store).key);
+  const NodeRecords before = planned(dag), now = planned(other);
+  EXPECT_EQ(explain(before, now, "loop/step").differences, Lines{"output numbers: type version 1 -> 2"});
+  EXPECT_EQ(explain(before, now, "loop/add").differences, Lines{"input a: type version 1 -> 2"});
+  EXPECT_EQ(explain(before, now, "loop").differences.size(), 2u);
 }
 
 /// Every leaf of a manifest, by its path: (path, pointer).
