@@ -56,20 +56,31 @@ void Runner::Impl::keep(State& state, const std::map<std::string, ArtifactPtr>& 
   state.held = artifacts;
 }
 
-/// Equal inputs and parameters gave another result than before. Told once.
+namespace {
+
+constexpr const char* disagreement = "not deterministic: equal inputs and parameters gave another result";
+
+}  // namespace
+
+/// Equal inputs and parameters gave another result than before.
 void Runner::Impl::disagree(std::size_t i) {
-  bool first = false;
+  if (!options_.strict) return tell_disagreement(i);
   {
     const std::lock_guard lock(mutex_);
-    first = nondeterministic_.insert(i).second;
+    nondeterministic_.insert(i);
   }
-  const std::string what = "not deterministic: equal inputs and parameters gave another result";
-  if (options_.strict) {
-    throw Error(
-        ExitCode::node_failed, dag_.nodes[i].path + " is " + what + " than the one in the cache",
-        "see what differs with --check-determinism; without --strict the new result replaces the old one");
+  throw Error(
+      ExitCode::node_failed, dag_.nodes[i].path + " is " + disagreement + " than the one in the cache",
+      "see what differs with --check-determinism; without --strict the new result replaces the old one");
+}
+
+/// Once.
+void Runner::Impl::tell_disagreement(std::size_t i) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!nondeterministic_.insert(i).second) return;
   }
-  if (first) message(i, true, what + "; what depends on it is computed anew");
+  message(i, true, std::string(disagreement) + "; what depends on it is computed anew");
 }
 
 /// The artifact of a resolved node: held in memory, read from the store, or made again for `reader`.

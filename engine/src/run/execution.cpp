@@ -102,8 +102,7 @@ void Runner::Impl::compare_with_earlier(std::size_t i, const ExecutionOutcome& o
   if (gives_declared(*earlier, dag_.nodes[i].kind.outputs())) return disagree(i);
   message(i, true,
           "its entry in the cache has other outputs or types than the node declares now, and is replaced: "
-          "the author "
-          "has not raised the behaviour version");
+          "the author has not raised the behaviour version");
 }
 
 ExecutionOutcome Runner::Impl::execute(std::size_t i, unsigned threads) {

@@ -26,9 +26,8 @@ KeyWaits::~KeyWaits() {
 
 void KeyWaits::add(const Digest& key, std::function<void()> go_on) {
   const std::lock_guard lock(mutex_);
+  if (background_ && !thread_.joinable()) thread_ = std::thread([this] { ask_in_background(); });
   waiting_.push_back({key, std::move(go_on)});
-  if (!background_) return;
-  if (!thread_.joinable()) thread_ = std::thread([this] { ask_in_background(); });
   changed_.notify_all();
 }
 

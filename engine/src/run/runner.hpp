@@ -115,6 +115,7 @@ class Runner::Impl {
   ArtifactPtr load(const EdgeRef& edge, const OutputEntry& entry, std::size_t reader);
   void keep(State& state, const std::map<std::string, ArtifactPtr>& artifacts);
   void disagree(std::size_t i);
+  void tell_disagreement(std::size_t i);
   void forget(std::size_t i);
 
   // determinism.cpp

@@ -18,6 +18,7 @@ void Runner::Impl::dispatch_admitted(const std::vector<std::size_t>& nodes) {
   }
 }
 
+/// The task of a node: what follows from how far it gets.
 void Runner::Impl::process(std::size_t i) {
   if (go_on_with(i)) {
     // Last: what the node has read and nobody needs any more is let go by now.
@@ -320,10 +321,10 @@ void Runner::Impl::compare_with_equals(std::size_t i) {
     const NodeResult& other = result_.nodes[flight.settled];
     if (same_digests(other.outputs, mine.outputs)) return;
     const NodeResult& newer = mine.status == NodeStatus::run ? mine : other;
-    replaced_.try_emplace(*states_[i]->key, ActionEntry{newer.manifest, newer.outputs, newer.warnings,
-                                                        newer.cost_seconds, newer.cpu_seconds});
-    nondeterministic_.insert(i);
+    replaced_[*states_[i]->key] = {newer.manifest, newer.outputs, newer.warnings, newer.cost_seconds,
+                                   newer.cpu_seconds};
   }
+  tell_disagreement(i);
   void_ = true;
   stop_ = true;
 }
