@@ -4,30 +4,18 @@
 namespace ballflow::cli {
 
 void RunSettings::add_to(const Command& command) {
-  command.option("--threads", threads, "number of threads; 0: all cores (the result never depends on it)")
+  command
+      .option("--threads", threads,
+              "number of threads; 0: all processors that it may use (the result never depends on it)")
       .between(0, 4096);
   command
-<<<<<<< HEAD
       .option("--memory", memory,
-              "what the nodes that run at the same time may need together by their own estimates:\n"
-              "8G, a number of bytes, or 50% of the memory of this machine (default: 80%)")
+              "what running nodes and results that are still needed may take together, by estimates of the "
+              "nodes:\n"
+              "8G, a number of bytes, or 50% of the memory that may be used (default: 80%)")
       .type_name("SIZE");
   command.option("--seed", seed, "seed of the nodes that use random numbers");
   command.flag("--keep-going", keep_going, "after a failure, go on with what does not need the failed node");
-=======
-      .add_option("--threads", threads,
-                  "number of threads; 0: all processors that it may use (the result never depends on it)")
-      ->check(CLI::Range(0u, 4096u));
-  command
-      .add_option("--memory", memory,
-                  "what running nodes and results that are still needed may take together, by estimates of "
-                  "the nodes:\n"
-                  "8G, a number of bytes, or 50% of the memory that may be used (default: 80%)")
-      ->type_name("SIZE");
-  command.add_option("--seed", seed, "seed of the nodes that use random numbers");
-  command.add_flag("--keep-going", keep_going,
-                   "after a failure, go on with what does not need the failed node");
->>>>>>> 28d3fa2 (run: Count what is held, wait without a worker, compare whatever made a node run; limits of control groups)
   const auto nodes = [&command](const char* name, std::vector<std::string>& list, const char* doc) {
     return command.option(name, list, doc).type_name("NODE").one_at_a_time();
   };
