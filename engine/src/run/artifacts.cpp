@@ -80,9 +80,7 @@ void Runner::Impl::tell_disagreement(std::size_t i) {
     const std::lock_guard lock(mutex_);
     if (!nondeterministic_.insert(i).second) return;
   }
-  std::string text(disagreement);
-  text += "; what depends on it is computed anew";
-  message(i, true, text);
+  message(i, true, std::string(disagreement) + "; what depends on it is computed anew");
 }
 
 /// The artifact of a resolved node: held in memory, read from the store, or made again for `reader`.
