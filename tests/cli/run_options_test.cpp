@@ -49,8 +49,9 @@ TEST_F(RunOptionsTest, until_and_only_run_a_part_and_say_what_is_missing) {
   EXPECT_NE(missing.err.find("needs dmt/sample, whose result is not in the cache"), std::string::npos);
   EXPECT_NE(missing.err.find("--until alpha"), std::string::npos) << missing.err;
 
-  EXPECT_EQ(run({"--until", "select", "--report", file}).exit_code, 0);
+  EXPECT_EQ(run({"--until", "diagram", "--report", file}).exit_code, 0);
   EXPECT_EQ(status("select"), "run");
+  EXPECT_EQ(status("diagram"), "run");
   EXPECT_EQ(status("alpha"), "skipped");
   EXPECT_EQ(run({"--only", "alpha", "--out", folder.file("out"), "--report", file}).exit_code, 0);
   EXPECT_EQ(status("alpha"), "run");
@@ -121,8 +122,8 @@ TEST_F(RunOptionsTest, json_lines_follow_their_schema) {
   std::map<std::string, int> count;
   for (const json& line : lines(cold.out)) ++count[line.at("event")];
   EXPECT_EQ(count["run_started"], 1);
-  EXPECT_EQ(count["node_started"], 11);
-  EXPECT_EQ(count["node_finished"], 11);
+  EXPECT_EQ(count["node_started"], 15);
+  EXPECT_EQ(count["node_finished"], 15);
   EXPECT_GE(count["cache_write"], 11);
   const json reported = lines(cold.out).back();
   EXPECT_EQ(reported.at("event"), "run_reported");
@@ -165,7 +166,7 @@ TEST_F(RunOptionsTest, a_trace_has_every_node_on_a_lane_without_overlap) {
     nodes.insert(event.at("name").get<std::string>());
     lanes[event.at("tid")].emplace_back(start, end);
   }
-  EXPECT_EQ(nodes.size(), 11u);
+  EXPECT_EQ(nodes.size(), 15u);
   EXPECT_GE(writes, 11);
   EXPECT_GE(counters, 20);
   for (auto& [lane, slices] : lanes) {
