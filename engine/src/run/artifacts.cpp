@@ -80,7 +80,9 @@ void Runner::Impl::tell_disagreement(std::size_t i) {
     const std::lock_guard lock(mutex_);
     if (!nondeterministic_.insert(i).second) return;
   }
-  message(i, true, std::string(disagreement) + "; what depends on it is computed anew");
+  std::string text(disagreement);  // in two steps: a false alarm of g++ 12 about operator+
+  text += "; what depends on it is computed anew";
+  message(i, true, text);
 }
 
 /// The artifact of a resolved node: held in memory, read from the store, or made again for `reader`.
