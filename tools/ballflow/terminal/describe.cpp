@@ -151,6 +151,11 @@ std::string describe(const OutputEntry& output) {
                 " to " + s.at("max_pole_distance").dump() + " away";
        }},
       {"MinkowskiReport", minkowski},
+      {"PowerDiagram",
+       [](const Json& s) {
+         return counted(s, "cells", "cell") + " of " + counted(s, "balls", "ball") + ", " +
+                number(s, "cells_in_complex") + " in the complex, " + number(s, "hidden") + " balls hidden";
+       }},
       {"SimplicialComplex", complex},
       {"MedialAxis", axis},
       {"TopologyTable", [](const Json& s) { return s.at("words").get<std::string>(); }},
