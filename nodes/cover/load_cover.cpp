@@ -10,6 +10,7 @@
 #include "cover/cover_matrix.hpp"
 #include "cover/residual.hpp"
 #include "io/file_content.hpp"
+#include "io/formats.hpp"
 #include "io/load_balls.hpp"
 #include "io/text_cursor.hpp"
 
@@ -42,8 +43,9 @@ Numbers numbers_of(std::string_view content, Monitor& monitor) {
     }
     const auto value = parse_integer(token);
     if (!value || *value < 0 || *value > most) {
+      refuse_other_formats(content, readable_covers);
       throw InputError(excerpt(token) + " is not an integer from 0 to 2147483647" + text.place_of(token),
-                       "readable are scp, rail and steiner files; for balls set format to balls");
+                       readable_covers);
     }
     numbers.values.push_back(static_cast<std::int32_t>(*value));
     numbers.places.push_back(static_cast<std::uint32_t>(token.data() - content.data()));

@@ -16,11 +16,11 @@ struct LoadCover {
   LoadCoverOptions options;
 
   static void declare(NodeDecl<LoadCover>& d) {
-    d.id("LoadCover", 1).summary("Read a set covering instance of the literature.");
+    d.id("LoadCover", 2).summary("Read a set covering instance of the literature.");
     d.doc(
         "Reads OR-Library files (scp and rail), Steiner triple systems, and balls of Coverage Axis, each "
-        "also "
-        "gzipped. Sets become rows, elements become columns. Every set counts 1: other costs are ignored "
+        "also packed with gzip or zstd. Sets become rows, elements become columns. Every set counts 1: other "
+        "costs are ignored "
         "with "
         "a warning. Refuses, with the line, numbers out of range, repeated entries, and files that end early "
         "or late.");

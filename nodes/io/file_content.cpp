@@ -1,8 +1,7 @@
 #include "io/file_content.hpp"
 
-#include <zlib.h>
-
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -10,11 +9,10 @@
 #include <system_error>
 
 #include "base/monitor.hpp"
+#include "io/unpack.hpp"
 
 namespace ballflow::geometry {
 namespace {
-
-constexpr std::size_t chunk = std::size_t{1} << 30;  // of one call of zlib, whose counters have 32 bits
 
 std::string quoted(const std::string& path) { return "\"" + path + "\""; }
 
@@ -55,70 +53,56 @@ FileContent read_plain(const std::string& path) {
   return {std::move(data), static_cast<std::size_t>(size)};
 }
 
-class Inflater {
- public:
-  Inflater() {
-    if (inflateInit2(&stream, 16 + MAX_WBITS) != Z_OK) throw std::bad_alloc();
-  }
-  ~Inflater() { inflateEnd(&stream); }
-  Inflater(const Inflater&) = delete;
-  Inflater& operator=(const Inflater&) = delete;
-  z_stream stream{};
+struct Mark {
+  std::string_view bytes;
+  const char* name;
 };
 
-FileContent unpack(const std::string& path, std::string_view packed, std::int64_t max_bytes) {
-  Inflater inflater;
-  z_stream& z = inflater.stream;
-  const auto limit = static_cast<std::size_t>(std::max<std::int64_t>(max_bytes, 0));
-  std::size_t capacity = std::min(limit + 1, std::max<std::size_t>(4 * packed.size(), 4096));
-  std::unique_ptr<char[]> data(new char[capacity]);
-  std::size_t read = 0, written = 0;
-  for (;;) {
-    if (written == capacity) {
-      if (written > limit) {
-        throw InputError(
-            "the file " + quoted(path) + " unpacks to more than " + std::to_string(limit) + " bytes",
-            "is it what you think it is? If so, unpack it first");
-      }
-      const std::size_t larger = std::min(limit + 1, 2 * capacity);
-      std::unique_ptr<char[]> grown(new char[larger]);
-      std::memcpy(grown.get(), data.get(), written);
-      data = std::move(grown);
-      capacity = larger;
-    }
-    const std::size_t in = std::min(chunk, packed.size() - read), out = std::min(chunk, capacity - written);
-    z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data() + read));
-    z.avail_in = static_cast<uInt>(in);
-    z.next_out = reinterpret_cast<Bytef*>(data.get() + written);
-    z.avail_out = static_cast<uInt>(out);
-    const int status = inflate(&z, Z_NO_FLUSH);
-    read += in - z.avail_in;
-    written += out - z.avail_out;
-    if (status == Z_STREAM_END) {
-      // Tapes and some archivers pad with zeros; anything else must be another member.
-      read = std::min(packed.size(), packed.find_first_not_of('\0', read));
-      if (read == packed.size()) break;
-      if (inflateReset(&z) != Z_OK) throw std::bad_alloc();
-    } else if (status == Z_MEM_ERROR) {
-      throw std::bad_alloc();
-    } else if (status != Z_OK && status != Z_BUF_ERROR) {
-      throw InputError(
-          "the gzip stream of " + quoted(path) + " is damaged: " + (z.msg ? z.msg : "unknown error"),
-          "fetch or pack the file again");
-    } else if (read == packed.size() && z.avail_out != 0) {
-      throw InputError("the gzip stream of " + quoted(path) + " is cut off", "fetch or pack the file again");
-    }
+/// Text of two or four bytes a character, told by its mark or by the zero bytes of its first characters;
+/// empty for other content.
+std::string_view wide_encoding(std::string_view content) {
+  static constexpr std::array marks = {Mark{{"\xff\xfe\0\0", 4}, "UTF-32"},
+                                       Mark{{"\0\0\xfe\xff", 4}, "UTF-32"}, Mark{"\xff\xfe", "UTF-16"},
+                                       Mark{"\xfe\xff", "UTF-16"}};
+  const std::string_view start = content.substr(0, 64);
+  const auto is_text = [](char c) { return (c >= ' ' && c <= '~') || (c >= '\t' && c <= '\r'); };
+  for (const Mark& mark : marks) {
+    if (!start.starts_with(mark.bytes)) continue;
+    // Headers of binary files may begin with anything; text has letters, digits and blanks, each with zeros.
+    const std::string_view rest = start.substr(mark.bytes.size());
+    const auto zeros = static_cast<std::size_t>(std::count(rest.begin(), rest.end(), '\0'));
+    const auto texts = static_cast<std::size_t>(std::count_if(rest.begin(), rest.end(), is_text));
+    if (texts > 0 && zeros >= texts && zeros + texts == rest.size()) return mark.name;
   }
-  if (written == 0)
-    throw InputError("the file " + quoted(path) + " is empty when unpacked", "write it again");
-  return {std::move(data), written};
+  if (start.size() < 16) return {};
+  for (const std::size_t zero : {std::size_t{0}, std::size_t{1}}) {
+    bool wide = true;
+    for (std::size_t i = 0; i < start.size() && wide; ++i) {
+      wide = i % 2 == zero ? start[i] == '\0' : is_text(start[i]);
+    }
+    if (wide) return "UTF-16";
+  }
+  return {};
+}
+
+/// How many bytes of a UTF-8 byte order mark come before the text.
+std::size_t size_of_mark(std::string_view content) {
+  constexpr std::string_view mark = "\xef\xbb\xbf";
+  if (!content.starts_with(mark)) return 0;
+  const std::string_view line = content.substr(0, content.find_first_of("\r\n"));
+  return line.find('\0') == std::string_view::npos ? mark.size() : 0;
 }
 
 }  // namespace
 
 FileContent read_file_content(const std::string& path, std::int64_t max_unpacked_bytes) {
-  FileContent content = read_plain(path);
-  if (content.view().starts_with("\x1f\x8b")) return unpack(path, content.view(), max_unpacked_bytes);
+  FileContent content = unpacked(quoted(path), read_plain(path), max_unpacked_bytes);
+  if (const std::string_view encoding = wide_encoding(content.view()); !encoding.empty()) {
+    throw InputError("the text of " + quoted(path) + " is in " + std::string(encoding),
+                     "save it as UTF-8 or plain ASCII");
+  }
+  content.skip(size_of_mark(content.view()));
+  if (content.view().empty()) throw InputError("the file " + quoted(path) + " is empty", "write it again");
   return content;
 }
 

@@ -11,7 +11,7 @@
 namespace ballflow::geometry {
 
 struct LoadBallsOptions {
-  // A file, also gzipped, or balls: and the balls themselves, separated by semicolons
+  // A file, also packed (gzip, zstd), or balls: and the balls themselves, separated by semicolons
   // ("balls:0 0 0 1; 1.5 0 0 1").
   std::string file;
 };
@@ -26,12 +26,14 @@ struct LoadedBalls {
 /// - ma (Q-MAT, MATFP, MATTopo): the numbers of vertices, edges and triangles; then that many lines
 ///   "v x y z r", "e i j", "f i j k" with indices from 0. MATFP's flags may follow: type and deleted (0 or 1)
 ///   of vertices and edges, deleted of triangles. What is marked as deleted is left out.
-/// - sph: the number of balls (Q-MAT), or 4 and the number of balls (MATTopo); then that many lines "x y z
-/// r",
-///   which MATTopo's flags may follow: type, deleted, count.
+/// - sph: the number of balls (Q-MAT), or 4 and the number of balls (MATTopo); then that many lines
+///   "x y z r", which MATTopo's flags may follow: type, deleted, count.
+/// - sphere trees: the numbers of levels and of branches; then every node level by level, "x y z r" and an
+///   importance, r < 0 for no ball. The leaves are read: balls none of whose children is one.
 /// - rows: "x y z r" a line, separated by blanks, commas or semicolons, also with a "v" in front (Coverage
-///   Axis). A first line of names (x, y, z, r or radius) may be there, and then more columns, too.
-/// - PLY: the vertices with their property radius; everything else is passed over.
+///   Axis) or with decimal commas (see NumberRows). A first line may name the columns: x, y, z, and r, radius
+///   or diameter, in any order and among others.
+/// - PLY: the vertices with their property radius, or diameter; everything else is passed over.
 ///
 /// "#" begins a comment, except in PLY. Numbers are read with the decimal point in every locale and rounded
 /// to the nearest double; they are not changed. In an axis, repeated edges and triangles, and those that use

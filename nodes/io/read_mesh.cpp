@@ -3,72 +3,22 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <limits>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include "base/first_equal.hpp"
 #include "exact/affine_span.hpp"
 #include "io/file_content.hpp"
+#include "io/formats.hpp"
 #include "io/model_faces.hpp"
 #include "io/raw_model.hpp"
-#include "io/text_cursor.hpp"
 
 namespace ballflow::geometry {
 namespace {
 
 using Index = std::int32_t;
 constexpr Index none = -1;
-
-struct Extension {
-  std::string_view name;
-  std::optional<MeshFormat> format;  // none: the content decides
-};
-constexpr std::array extensions = {Extension{"", std::nullopt},          Extension{".txt", std::nullopt},
-                                   Extension{".dat", std::nullopt},      Extension{".off", MeshFormat::off},
-                                   Extension{".coff", MeshFormat::off},  Extension{".noff", MeshFormat::off},
-                                   Extension{".cnoff", MeshFormat::off}, Extension{".stoff", MeshFormat::off},
-                                   Extension{".obj", MeshFormat::obj},   Extension{".ply", MeshFormat::ply},
-                                   Extension{".stl", MeshFormat::stl},   Extension{".xyz", MeshFormat::xyz},
-                                   Extension{".pts", MeshFormat::xyz},   Extension{".pwn", MeshFormat::xyz}};
-
-std::string lower_extension(std::filesystem::path path) {
-  const auto extension = [&path] {
-    std::string text = path.extension().string();
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
-    return text;
-  };
-  std::string text = extension();
-  if (text == ".gz") {
-    path = path.stem();
-    text = extension();
-  }
-  return text;
-}
-
-MeshFormat sniff(std::string_view content) {
-  TextCursor text(content, '#');
-  const std::string_view word = text.token();
-  if (word == "ply") return MeshFormat::ply;
-  if (word.ends_with("OFF")) return MeshFormat::off;
-  if (word == "solid") return MeshFormat::stl;
-  if (word == "v" || word == "vn" || word == "vt" || word == "mtllib" || word == "o" || word == "g")
-    return MeshFormat::obj;
-  if (content.substr(0, 1024).find('\0') != std::string_view::npos) return MeshFormat::stl;
-  return MeshFormat::xyz;
-}
-
-MeshFormat format_of(const std::string& path, std::string_view content) {
-  const std::string extension = lower_extension(path);
-  for (const Extension& known : extensions) {
-    if (known.name == extension) return known.format ? *known.format : sniff(content);
-  }
-  throw InputError("the file \"" + path + "\" has the unknown extension \"" + extension + "\"",
-                   "readable are .off .obj .ply .stl .xyz .pts .pwn, each also with .gz");
-}
 
 std::string counted(std::int64_t n, const char* one, const char* many) {
   return std::to_string(n) + " " + (n == 1 ? one : many);
@@ -186,7 +136,7 @@ MeshFile parse_mesh(std::string_view content, MeshFormat format, Monitor& monito
 
 MeshFile read_mesh_file(const std::string& path, const ReadOptions& options, Monitor& monitor) {
   const FileContent content = read_file_content(path, options.max_unpacked_bytes);
-  return parse_mesh(content.view(), format_of(path, content.view()), monitor);
+  return parse_mesh(content.view(), format_of(path, content.view(), monitor), monitor);
 }
 
 }  // namespace ballflow::geometry

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "base/monitor.hpp"
+#include "io/formats.hpp"
 #include "types/point_set.hpp"
 #include "types/triangle_mesh.hpp"
 
@@ -33,12 +34,18 @@ struct MeshFile {
   std::int64_t concave_faces = 0, crossing_faces = 0;
 };
 
-enum class MeshFormat { off, obj, ply, stl, xyz };
-
-/// Reads OFF (also COFF, NOFF, STOFF), OBJ, PLY (ASCII, binary of both byte orders), STL (ASCII, binary) and
-/// points as text (XYZ, PTS, PWN), each also gzipped.
+/// Reads OFF (also COFF, NOFF, STOFF, 4OFF, and nOFF of dimension 3), OBJ, PLY (ASCII, binary of both byte
+/// orders), STL (ASCII, binary) and points as text (XYZ, PTS, PWN, CSV, ASC), each also packed with gzip or
+/// zstd, and with a UTF-8 byte order mark.
 ///
-/// - The extension names the format, the content where there is none (or .txt or .dat).
+/// - The extension names the format; where the content is certainly of another one (see format_of), it
+/// decides with a warning.
+/// - Normals and texture coordinates of OBJ that faces name and the file has not are not used, with a
+/// warning.
+/// - Binary STL files whose header promises no facet, or fewer than the length fits exactly, are read by
+/// their length, with a warning.
+/// - Lists of points may have a first line of column names, decimal commas (see NumberRows), and several
+/// scans one after another.
 /// - Numbers are read with the decimal point in every locale and rounded to the nearest double.
 /// - Polygons become triangles between their corners: a fan around the first one where that fills the
 /// polygon, else the constrained Delaunay triangulation of its inside, seen along an axis. Bent and nested

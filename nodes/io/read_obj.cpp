@@ -1,4 +1,5 @@
 // Wavefront OBJ: v, vn and f; everything else (texture coordinates, lines, groups, materials) is passed over.
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -37,7 +38,7 @@ struct ForwardReference {
 class Parser {
  public:
   Parser(std::string_view content, Monitor& monitor)
-      : text_(content, '#'), size_(content.size()), monitor_(monitor) {}
+      : text_(content, '#', {}, '\\'), size_(content.size()), monitor_(monitor) {}
 
   RawModel parse() {
     for (std::int64_t line = 0; !text_.at_end(); ++line, text_.next_line()) {
@@ -53,12 +54,15 @@ class Parser {
         const auto number = static_cast<std::int64_t>(normals_.size());
         normals_.push_back(
             {real("normal", number, "x"), real("normal", number, "y"), real("normal", number, "z")});
-      } else if (keyword == "f") {
+      } else if (keyword == "f" || keyword == "fo") {
         face();
       }
     }
-    check_forward_references(forward_vertices_, model_.vertices.size(), "vertex");
-    check_forward_references(forward_normals_, normals_.size(), "normal");
+    if (model_.vertices.empty()) {
+      throw InputError("the OBJ file has no vertex: no line begins with v",
+                       "is it an OBJ file? Its extension says so");
+    }
+    check_forward_references();
     set_normals();
     return std::move(model_);
   }
@@ -68,49 +72,51 @@ class Parser {
     return parse_coordinate(text_, text_.token_on_line(), element, number, name);
   }
 
-  std::int32_t resolve(std::int64_t written, std::size_t defined, std::string_view token, const char* kind,
-                       std::vector<ForwardReference>& forward) {
-    const auto count = static_cast<std::int64_t>(defined);
+  std::int32_t resolve_vertex(std::int64_t written, std::string_view token) {
+    const auto count = static_cast<std::int64_t>(model_.vertices.size());
     if (written == 0 || written < -count || written > std::numeric_limits<std::int32_t>::max()) {
-      refuse_index("face", model_.faces, kind, std::to_string(written), defined, text_.place_of(token));
+      refuse_index("face", model_.faces, "vertex", std::to_string(written), model_.vertices.size(),
+                   text_.place_of(token));
     }
     const std::int64_t index = written > 0 ? written - 1 : count + written;
-    if (index >= count) forward.push_back({model_.faces, index, token});
+    if (index >= count) forward_.push_back({model_.faces, index, token});
+    return static_cast<std::int32_t>(index);
+  }
+
+  /// Whether there is one with this index is known at the end.
+  std::int32_t resolve_normal(std::int64_t written, std::string_view token) {
+    const std::int64_t index = written > 0   ? written - 1
+                               : written < 0 ? static_cast<std::int64_t>(normals_.size()) + written
+                                             : -1;
+    const bool impossible = index < 0 || index > std::numeric_limits<std::int32_t>::max();
+    if (!impossible_normal_ && (impossible || index > greatest_normal_)) normal_token_ = token;
+    impossible_normal_ = impossible_normal_ || impossible;
+    if (impossible) return -1;
+    if (!impossible_normal_) greatest_normal_ = std::max(greatest_normal_, index);
     return static_cast<std::int32_t>(index);
   }
 
   void face() {
     corners_.clear();
-    for (;;) {
-      std::string_view token = text_.token_on_line();
-      if (token.empty()) break;
-      const bool continued = token.back() == '\\';
-      if (continued) token.remove_suffix(1);
-      if (!token.empty()) {
-        const Corner corner = parse_corner(token);
-        if (!corner.vertex || (corner.has_normal && !corner.normal)) {
-          throw InputError("face " + std::to_string(model_.faces) + ": " + excerpt(token) +
-                               " is not a corner" + text_.place_of(token),
-                           "a corner is v, v/vt, v//vn or v/vt/vn with whole numbers");
-        }
-        corners_.push_back(
-            resolve(*corner.vertex, model_.vertices.size(), token, "vertex", forward_vertices_));
-        if (corner.has_normal) {
-          corner_normals_.emplace_back(
-              corners_.back(), resolve(*corner.normal, normals_.size(), token, "normal", forward_normals_));
-        }
+    for (std::string_view token = text_.token_on_line(); !token.empty(); token = text_.token_on_line()) {
+      const Corner corner = parse_corner(token);
+      if (!corner.vertex || (corner.has_normal && !corner.normal)) {
+        throw InputError("face " + std::to_string(model_.faces) + ": " + excerpt(token) + " is not a corner" +
+                             text_.place_of(token),
+                         "a corner is v, v/vt, v//vn or v/vt/vn with whole numbers");
       }
-      if (continued) text_.next_line();
+      corners_.push_back(resolve_vertex(*corner.vertex, token));
+      if (corner.has_normal)
+        corner_normals_.emplace_back(corners_.back(), resolve_normal(*corner.normal, token));
     }
     add_polygon(model_, corners_);
   }
 
-  void check_forward_references(const std::vector<ForwardReference>& forward, std::size_t count,
-                                const char* kind) {
-    for (const ForwardReference& reference : forward) {
-      if (reference.index < static_cast<std::int64_t>(count)) continue;
-      refuse_index("face", reference.face, kind, std::to_string(reference.index + 1), count,
-                   text_.place_of(reference.token));
+  void check_forward_references() {
+    for (const ForwardReference& reference : forward_) {
+      if (reference.index < static_cast<std::int64_t>(model_.vertices.size())) continue;
+      refuse_index("face", reference.face, "vertex", std::to_string(reference.index + 1),
+                   model_.vertices.size(), text_.place_of(reference.token));
     }
   }
 
@@ -121,6 +127,15 @@ class Parser {
       return;
     }
     if (corner_normals_.empty()) return;
+    const auto count = static_cast<std::int64_t>(normals_.size());
+    if (impossible_normal_ || greatest_normal_ >= count) {
+      // Programs that strip normals leave the indices; the shape is in the vertices.
+      model_.warnings.push_back("faces name normals, " + excerpt(normal_token_) +
+                                text_.place_of(normal_token_) + " for one, but the file has " +
+                                (count == 0 ? "none" : "only " + std::to_string(count)) +
+                                ": normals are not used");
+      return;
+    }
     model_.normals.resize(model_.vertices.size());
     for (const auto& [vertex, normal] : corner_normals_) {
       Vec3& sum = model_.normals[static_cast<std::size_t>(vertex)];
@@ -135,7 +150,10 @@ class Parser {
   std::vector<Vec3> normals_;
   std::vector<std::int32_t> corners_;
   std::vector<std::pair<std::int32_t, std::int32_t>> corner_normals_;  // vertex, normal
-  std::vector<ForwardReference> forward_vertices_, forward_normals_;
+  std::int64_t greatest_normal_ = -1;
+  bool impossible_normal_ = false;  // an index of a normal that no file can have
+  std::string_view normal_token_;   // the corner with that index, else with the greatest one
+  std::vector<ForwardReference> forward_;
 };
 
 }  // namespace

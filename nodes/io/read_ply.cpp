@@ -1,196 +1,20 @@
 // PLY (Stanford): ASCII and both binary encodings, elements and properties in any order. Used are x, y, z,
-// nx, ny, nz, radius of "vertex", vertex_indices (or vertex_index) of "face" and of "tristrips"; the
-// rest is passed over.
+// nx, ny, nz, radius (or diameter) of "vertex", vertex_indices (or vertex_index) of "face" and of
+// "tristrips"; the rest is passed over.
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
-#include <optional>
+#include <type_traits>
 
+#include "io/ply_header.hpp"
 #include "io/raw_model.hpp"
 #include "io/text_cursor.hpp"
 
 namespace ballflow::geometry {
 namespace {
 
-enum class Encoding { ascii, little_endian, big_endian };
-enum class Scalar { i8, u8, i16, u16, i32, u32, i64, u64, f32, f64 };
-enum class Role { none, x, y, z, nx, ny, nz, radius, indices };
-
-std::size_t bytes(Scalar type) {
-  switch (type) {
-    case Scalar::i8:
-    case Scalar::u8:
-      return 1;
-    case Scalar::i16:
-    case Scalar::u16:
-      return 2;
-    case Scalar::i32:
-    case Scalar::u32:
-    case Scalar::f32:
-      return 4;
-    default:
-      return 8;
-  }
-}
-
-bool is_float(Scalar type) { return type == Scalar::f32 || type == Scalar::f64; }
-
-std::optional<Scalar> scalar_named(std::string_view name) {
-  struct Name {
-    std::string_view name;
-    Scalar type;
-  };
-  static constexpr std::array names = {
-      Name{"char", Scalar::i8},     Name{"int8", Scalar::i8},    Name{"uchar", Scalar::u8},
-      Name{"uint8", Scalar::u8},    Name{"short", Scalar::i16},  Name{"int16", Scalar::i16},
-      Name{"ushort", Scalar::u16},  Name{"uint16", Scalar::u16}, Name{"int", Scalar::i32},
-      Name{"int32", Scalar::i32},   Name{"uint", Scalar::u32},   Name{"uint32", Scalar::u32},
-      Name{"int64", Scalar::i64},   Name{"uint64", Scalar::u64}, Name{"float", Scalar::f32},
-      Name{"float32", Scalar::f32}, Name{"double", Scalar::f64}, Name{"float64", Scalar::f64}};
-  for (const Name& entry : names) {
-    if (entry.name == name) return entry.type;
-  }
-  return std::nullopt;
-}
-
-struct Property {
-  std::string name;
-  bool list = false;
-  Scalar count_type = Scalar::u8;  // lists only
-  Scalar type = Scalar::f32;
-  Role role = Role::none;
-};
-
-struct Element {
-  std::string name;
-  std::int64_t count = 0;
-  std::vector<Property> properties;
-};
-
-struct Header {
-  Encoding encoding = Encoding::ascii;
-  std::vector<Element> elements;
-};
-
-class HeaderParser {
- public:
-  explicit HeaderParser(TextCursor& text) : text_(text) {}
-
-  Header parse() {
-    if (text_.rest_of_line() != "ply") {
-      throw InputError("the PLY file does not begin with \"ply\"", "is it a PLY file? Its extension says so");
-    }
-    bool has_format = false;
-    for (;;) {
-      text_.next_line();
-      if (text_.at_end()) {
-        throw InputError("the PLY header has no \"end_header\"",
-                         "the file is cut off; fetch or write it again");
-      }
-      const std::string_view keyword = text_.token_on_line();
-      if (keyword == "end_header") break;
-      if (keyword == "format") {
-        has_format = true;
-        encoding();
-      } else if (keyword == "element") {
-        element();
-      } else if (keyword == "property") {
-        property(keyword);
-      } else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
-        refuse(keyword, "unknown keyword " + excerpt(keyword));
-      }
-    }
-    text_.next_line();
-    if (!has_format)
-      throw InputError("the PLY header has no \"format\" line", "the file is damaged; write it again");
-    return std::move(header_);
-  }
-
- private:
-  [[noreturn]] void refuse(std::string_view token, const std::string& what) const {
-    throw InputError("PLY header: " + what + text_.place_of(token), "the file is damaged; write it again");
-  }
-
-  void encoding() {
-    const std::string_view name = text_.token_on_line();
-    if (name == "ascii") {
-      header_.encoding = Encoding::ascii;
-    } else if (name == "binary_little_endian") {
-      header_.encoding = Encoding::little_endian;
-    } else if (name == "binary_big_endian") {
-      header_.encoding = Encoding::big_endian;
-    } else {
-      refuse(name, "unknown format " + excerpt(name));
-    }
-  }
-
-  void element() {
-    Element element;
-    const std::string_view name = text_.token_on_line();
-    // Names appear in messages.
-    const bool printable = std::all_of(name.begin(), name.end(), [](char c) { return c > ' ' && c <= '~'; });
-    if (name.empty() || !printable) refuse(name, excerpt(name) + " is no name of an element");
-    element.name = name;
-    const std::string_view token = text_.token_on_line();
-    const auto count = parse_integer(token);
-    if (!count || *count < 0)
-      refuse(token, excerpt(token) + " is no number of elements " + excerpt(element.name));
-    element.count = *count;
-    for (const Element& other : header_.elements) {
-      if (other.name == element.name)
-        refuse(token, "the element " + excerpt(element.name) + " is declared twice");
-    }
-    header_.elements.push_back(std::move(element));
-  }
-
-  void property(std::string_view keyword) {
-    if (header_.elements.empty()) refuse(keyword, "a property before the first element");
-    Element& element = header_.elements.back();
-    Property property;
-    std::string_view type = text_.token_on_line();
-    if (type == "list") {
-      property.list = true;
-      property.count_type = scalar(text_.token_on_line());
-      if (is_float(property.count_type)) refuse(type, "a list counted in floating point");
-      type = text_.token_on_line();
-    }
-    property.type = scalar(type);
-    property.name = text_.token_on_line();
-    property.role = role(element.name, property);
-    for (const Property& other : element.properties) {
-      if (property.role != Role::none && other.role == property.role) {
-        refuse(keyword, "the property " + excerpt(property.name) + " is declared twice");
-      }
-    }
-    element.properties.push_back(std::move(property));
-  }
-
-  Scalar scalar(std::string_view name) const {
-    const auto type = scalar_named(name);
-    if (!type) refuse(name, "unknown type " + excerpt(name));
-    return *type;
-  }
-
-  Role role(std::string_view element, const Property& property) const {
-    if (element == "vertex" && !property.list) {
-      static constexpr std::array<std::string_view, 7> names = {"x", "y", "z", "nx", "ny", "nz", "radius"};
-      static constexpr std::array roles = {Role::x,  Role::y,  Role::z,     Role::nx,
-                                           Role::ny, Role::nz, Role::radius};
-      for (std::size_t i = 0; i < names.size(); ++i) {
-        if (property.name == names[i]) return roles[i];
-      }
-    }
-    if ((element == "face" || element == "tristrips") && property.list && !is_float(property.type) &&
-        (property.name == "vertex_indices" || property.name == "vertex_index")) {
-      return Role::indices;
-    }
-    return Role::none;
-  }
-
-  TextCursor& text_;
-  Header header_;
-};
+using namespace ply;
 
 /// Where the file broke off or is not readable, without the name of the element.
 struct Unreadable {
@@ -214,6 +38,12 @@ class AsciiValues {
     unreadable("a whole number");
   }
   void skip(Scalar type) { real(type); }
+  /// Ends when nothing follows but what DOS ends texts with.
+  bool at_end() {
+    token_ = text_.token();
+    return token_.find_first_not_of(std::string_view("\x1a\0", 2)) == std::string_view::npos;
+  }
+  std::string rest() const { return excerpt(token_); }
   /// The place of the last value.
   std::string place() const { return text_.place_of(token_); }
 
@@ -262,6 +92,11 @@ class BinaryValues {
     require(bytes(type));
     at_ += bytes(type);
   }
+  bool at_end() {
+    // A line end, perhaps of an editor.
+    return remaining() <= 2 && std::all_of(at_, end_, [](char c) { return c == '\n' || c == '\r'; });
+  }
+  std::string rest() const { return std::to_string(remaining()) + " bytes"; }
   static std::string place() { return {}; }
 
  private:
@@ -282,6 +117,33 @@ class BinaryValues {
   const char* end_;
   bool swap_;
 };
+
+/// Where an ASCII file is out of step, the first line with too few values, or too many, is the cause, though
+/// the error comes later: elements may go on in the next line. Empty when no line is wrong.
+std::string first_short_line(TextCursor text, const Header& header) {
+  for (const Element& element : header.elements) {
+    if (element.properties.empty()) continue;
+    for (std::int64_t i = 0; i < element.count; ++i, text.next_line()) {
+      const std::string_view first = text.token();
+      if (first.empty()) return {};
+      std::string_view token = first;
+      const auto take = [&](std::int64_t values) {
+        for (; values > 0 && !token.empty(); --values) token = text.token_on_line();
+        return values == 0;
+      };
+      bool whole = true;
+      for (const Property& property : element.properties) {
+        std::int64_t values = 1;
+        if (property.list) values += std::max<std::int64_t>(parse_integer(token).value_or(0), 0);
+        if (!(whole = take(values))) break;
+      }
+      if (whole && token.empty()) continue;
+      return "; the line of " + element.name + " " + std::to_string(i) + " has too " +
+             (whole ? "many" : "few") + " values" + text.place_of(first);
+    }
+  }
+  return {};
+}
 
 template <class Values>
 class BodyParser {
@@ -322,20 +184,28 @@ class BodyParser {
         if (strip) add_strip();
       }
     }
+    require_end();
     return std::move(model_);
   }
 
  private:
+  /// Text after the last element means that a number in the header is wrong; bytes may be anything.
+  void require_end() {
+    if (values_.at_end()) return;
+    const std::string rest = values_.rest();
+    if constexpr (std::is_same_v<Values, AsciiValues>) {
+      throw InputError(rest + " follows after the last element that the header promises" + values_.place(),
+                       "correct the numbers of elements in the header, or remove what follows");
+    }
+    model_.warnings.push_back(rest + " after the last element that the header promises are passed over");
+  }
+
   void prepare_vertices(const Element& element) {
-    std::array<bool, 9> has{};
+    std::array<bool, roles> has{};
     for (const Property& property : element.properties) has[static_cast<std::size_t>(property.role)] = true;
     const auto missing = [&has](Role role) { return !has[static_cast<std::size_t>(role)]; };
-    if (missing(Role::x) || missing(Role::y) || missing(Role::z)) {
-      const char* name = missing(Role::x) ? "x" : missing(Role::y) ? "y" : "z";
-      throw InputError(std::string("the PLY header gives vertices no property ") + name,
-                       "write the file again with x, y and z");
-    }
-    has_radii_ = !missing(Role::radius);
+    has_diameters_ = missing(Role::radius) && !missing(Role::diameter);
+    has_radii_ = has_diameters_ || !missing(Role::radius);
     has_normals_ = !missing(Role::nx) && !missing(Role::ny) && !missing(Role::nz);
     model_.vertices.reserve(static_cast<std::size_t>(element.count));
     if (has_normals_) model_.normals.reserve(static_cast<std::size_t>(element.count));
@@ -372,6 +242,9 @@ class BodyParser {
         case Role::radius:
           target = &radius_;
           break;
+        case Role::diameter:
+          target = &diameter_;
+          break;
         default:
           values_.skip(property.type);
           continue;
@@ -403,10 +276,10 @@ class BodyParser {
   }
 
   void finish_vertex(std::int64_t number) {
-    require_finite(point_, "vertex", number);
+    if (!is_finite(point_)) require_finite(point_, "vertex", number, values_.place());
     add_vertex(model_, point_);
     if (has_normals_) model_.normals.push_back(normal_);
-    if (has_radii_) model_.radii.push_back(radius_);
+    if (has_radii_) model_.radii.push_back(has_diameters_ ? diameter_ / 2 : radius_);
   }
 
   /// Every three successive vertices are a triangle, every other one turned round; -1 begins a new strip.
@@ -428,9 +301,9 @@ class BodyParser {
   Monitor& monitor_;
   RawModel model_;
   std::int64_t vertex_count_ = 0;
-  bool has_normals_ = false, has_radii_ = false;
+  bool has_normals_ = false, has_radii_ = false, has_diameters_ = false;
   Vec3 point_, normal_;
-  double radius_ = 0;
+  double radius_ = 0, diameter_ = 0;
   std::vector<std::int32_t> indices_;
 };
 
@@ -438,8 +311,18 @@ class BodyParser {
 
 RawModel parse_ply(std::string_view content, Monitor& monitor) {
   TextCursor text(content);
-  const Header header = HeaderParser(text).parse();
-  if (header.encoding == Encoding::ascii) return BodyParser(AsciiValues(text), header, monitor).parse();
+  const Header header = parse_header(text);
+  if (header.encoding == Encoding::ascii) {
+    try {
+      return BodyParser(AsciiValues(text), header, monitor).parse();
+    } catch (const InputError& error) {
+      const std::string line = first_short_line(text, header);
+      if (line.empty()) throw;
+      const std::string what = error.what();
+      const std::size_t cause = what.find('\n');
+      throw InputError(what.substr(0, cause) + line, what.substr(cause + 1));
+    }
+  }
   const bool big_endian = header.encoding == Encoding::big_endian;
   return BodyParser(BinaryValues(content.substr(text.offset()), big_endian), header, monitor).parse();
 }

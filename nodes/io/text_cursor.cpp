@@ -10,9 +10,19 @@ namespace {
 
 const char* spelled(double value) { return std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf"; }
 
-[[noreturn]] void refuse_coordinate(const char* element, std::int64_t number, const std::string& rest) {
-  throw InputError(std::string(element) + " " + std::to_string(number) + ": " + rest,
-                   "repair or remove it; coordinates must be finite numbers");
+[[noreturn]] void refuse_coordinate(
+    const char* element, std::int64_t number, const std::string& rest,
+    const char* hint = "repair or remove it; coordinates must be finite numbers") {
+  throw InputError(std::string(element) + " " + std::to_string(number) + ": " + rest, hint);
+}
+
+/// "1,5"
+bool has_decimal_comma(std::string_view token) {
+  const std::size_t comma = token.find(',');
+  if (comma == std::string_view::npos || token.find(',', comma + 1) != std::string_view::npos) return false;
+  std::string with_point(token);
+  with_point[comma] = '.';
+  return parse_real(with_point).has_value();
 }
 
 std::string_view without_plus(std::string_view token) {
@@ -68,13 +78,16 @@ double parse_coordinate(const TextCursor& cursor, std::string_view token, const 
   const std::string place = cursor.place_of(token);
   if (value) refuse_coordinate(element, number, std::string(name) + " is " + spelled(*value) + place);
   if (token.empty()) refuse_coordinate(element, number, std::string(name) + " is missing" + place);
-  refuse_coordinate(element, number, std::string(name) + " is " + excerpt(token) + ", not a number" + place);
+  refuse_coordinate(element, number, std::string(name) + " is " + excerpt(token) + ", not a number" + place,
+                    has_decimal_comma(token)
+                        ? "it has a decimal comma: write the file again with decimal points"
+                        : "repair or remove it; coordinates must be finite numbers");
 }
 
-void require_finite(const Vec3& p, const char* element, std::int64_t number) {
-  if (!std::isfinite(p.x)) refuse_coordinate(element, number, std::string("x is ") + spelled(p.x));
-  if (!std::isfinite(p.y)) refuse_coordinate(element, number, std::string("y is ") + spelled(p.y));
-  if (!std::isfinite(p.z)) refuse_coordinate(element, number, std::string("z is ") + spelled(p.z));
+void require_finite(const Vec3& p, const char* element, std::int64_t number, const std::string& place) {
+  if (!std::isfinite(p.x)) refuse_coordinate(element, number, std::string("x is ") + spelled(p.x) + place);
+  if (!std::isfinite(p.y)) refuse_coordinate(element, number, std::string("y is ") + spelled(p.y) + place);
+  if (!std::isfinite(p.z)) refuse_coordinate(element, number, std::string("z is ") + spelled(p.z) + place);
 }
 
 std::string excerpt(std::string_view text) {

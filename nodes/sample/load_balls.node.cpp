@@ -15,14 +15,18 @@ struct LoadBalls {
   LoadBallsOptions options;
 
   static void declare(NodeDecl<LoadBalls>& d) {
-    d.id("LoadBalls", 2).summary("Reads balls, or a medial axis, that another program or an export wrote.");
+    d.id("LoadBalls", 3).summary("Reads balls, or a medial axis, that another program or an export wrote.");
     d.doc(
-        "Reads ma (Q-MAT, MATFP, MATTopo), sph, lines of x y z r (also CSV, or with a v in front), and PLY "
-        "with a radius, each also gzipped; the content decides. Coordinates and radii stay as they are. "
-        "Leaves "
-        "out what MATFP marks as deleted. Refuses, with the line, numbers that are not finite, negative "
-        "radii, "
-        "indices out of range, and files that end early or late.");
+        "Reads ma (Q-MAT, MATFP, MATTopo), sph, the leaves of sphere trees (levels and branches first), "
+        "lines "
+        "of x y z r (also CSV, under column names, with decimal commas, or with a v in front), and PLY with "
+        "a "
+        "radius or diameter, each also packed with gzip or zstd; the content decides. Coordinates and radii "
+        "stay as they are. Leaves out what MATFP marks as deleted. Refuses, with the line, numbers that are "
+        "not "
+        "finite, negative radii, indices out of range, commas that may separate or be decimal, and files "
+        "that "
+        "end early or late.");
     d.avoid_when("the balls are to be computed from a model: VoronoiPoles and LabelPoles do that");
     d.cites("li2015", "file format of the authors' program").cites("wang2022", "same");
     d.cites("dou2022", "lists of candidates");

@@ -17,16 +17,18 @@ struct Sample {
   SampleOptions options;
 
   static void declare(NodeDecl<Sample>& d) {
-    d.id("Sample", 2).summary("Reads a model, or makes one, and samples its surface.");
+    d.id("Sample", 3).summary("Reads a model, or makes one, and samples its surface.");
     d.doc(
-        "Reads OFF, OBJ, PLY, STL and points as text (XYZ, PTS, PWN), each also gzipped. Welds equal "
-        "vertices, drops "
-        "degenerate and repeated faces, also walls that are there twice, triangulates polygons inside "
-        "themselves "
-        "and, where there are faces, vertices in none, and says how many. "
-        "Refuses files that "
-        "are cut off or damaged, coordinates that are not finite, indices out of range, and points in one "
-        "plane.");
+        "Reads OFF, OBJ, PLY, STL and points as text (XYZ, PTS, PWN, CSV, ASC, also under column names and "
+        "with "
+        "decimal commas), each also packed with gzip or zstd; content that belies the name of its file is "
+        "read "
+        "as what it is, with a warning. Welds equal vertices, drops degenerate and repeated faces, also "
+        "walls "
+        "that are there twice, triangulates polygons inside themselves and, where there are faces, drops "
+        "vertices in none, and says how many. Refuses files that are cut off or damaged, coordinates that "
+        "are "
+        "not finite, indices out of range, commas that may separate or be decimal, and points in one plane.");
     d.avoid_when("the model needs repair first: holes and self-intersections stay as they are");
     d.cites("kornberger2010", "3.4 and 3.9").cites("yuksel2015", "3");
     d.library("CGAL", geometry::cgal_version()).uses_seed();

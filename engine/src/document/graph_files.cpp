@@ -108,6 +108,14 @@ std::string read_text_file(const std::string& path) {
     in.read(text.data() + size, static_cast<std::streamsize>(block));
     text.resize(size + static_cast<std::size_t>(in.gcount()));
   }
+  // Editors write a byte order mark before UTF-8, or text of two bytes a character.
+  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
+  const std::string_view start = std::string_view(text).substr(0, 2);
+  if (start == "\xff\xfe" || start == "\xfe\xff" ||
+      (start.size() == 2 && (start[0] == '\0') != (start[1] == '\0'))) {
+    throw Error(ExitCode::usage, "cannot read " + in_quotes(path) + ": its text is in UTF-16",
+                "save it as UTF-8");
+  }
   return text;
 }
 

@@ -47,7 +47,8 @@ class GraphFiles {
   Findings& findings_;
 };
 
-/// Throws Error when it cannot be read or is larger than the limit of texts.
+/// The content without a UTF-8 byte order mark. Throws Error when it cannot be read, or is in UTF-16. Not
+/// more is read than the limit of texts and a block.
 std::string read_text_file(const std::string& path);
 
 }  // namespace ballflow

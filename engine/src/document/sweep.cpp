@@ -185,7 +185,9 @@ class SweepPlanner {
     for (const PlacedSetting& pattern : patterns) {
       const std::string text = text_of(pattern);
       std::vector<std::string> paths;
-      if (!is_pattern(text)) {
+      std::error_code unknown;
+      // What is there under just this name is meant: "scan [1].off".
+      if (!is_pattern(text) || fs::is_regular_file(text, unknown)) {
         paths.push_back(text);
       } else {
         glob_t matches{};

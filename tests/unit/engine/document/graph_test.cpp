@@ -107,6 +107,24 @@ TEST(graph, writes_one_number_in_one_way) {
   EXPECT_EQ(epsilon("-0.0"), epsilon("0"));
 }
 
+TEST(graph, byte_order_marks_are_skipped_and_other_encodings_named) {
+  test::TempFolder folder;
+  const std::string windows = "\xef\xbb\xbf" + std::string(chain);
+  test::write_file(folder.file("mark.json"), windows);
+  EXPECT_EQ(paths(load(folder.file("mark.json"), {{"input", "x"}})), paths(parse(chain, {{"input", "x"}})));
+  for (const std::string& start :
+       {std::string("\xff\xfe{\0", 4), std::string("\xfe\xff\0{", 4), std::string("{\0", 2)}) {
+    test::write_file(folder.file("wide.json"), start + std::string(" \0}\0", 4));
+    try {
+      load(folder.file("wide.json"));
+      FAIL();
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("UTF-16"), std::string::npos);
+      EXPECT_EQ(error.hint(), "save it as UTF-8");
+    }
+  }
+}
+
 TEST(graph, overrides_reach_graph_parameters_and_nodes_at_any_depth) {
   test::TempFolder folder;
   test::write_file(folder.file("s/deep.json"), R"({"params":{"k":{"kind":"number","default":0.5}},

@@ -245,6 +245,17 @@ TEST_F(SweepFiles, inputs_need_no_map) {
       << "a name without * or [ need not be a file";
 }
 
+TEST_F(SweepFiles, a_name_that_is_there_is_no_pattern) {
+  for (const char* name : {"scan [1].ply", "scan 1.ply", "what?.ply"})
+    test::write_file(folder.file(std::string("scans/") + name), "");
+  const Dag dag = parse("", {{}, {"scans/scan [1].ply", "scans/what?.ply"}});
+  ASSERT_EQ(dag.variants.size(), 2u);
+  EXPECT_EQ(dag.variants[0].values[0].second, "scans/scan [1].ply");
+  EXPECT_EQ(dag.variants[1].values[0].second, "scans/what?.ply");
+  EXPECT_EQ(parse("", {{}, {"scans/scan [12].ply"}}).variants[0].values[0].second, "scans/scan 1.ply")
+      << "none is called so: a pattern";
+}
+
 TEST_F(SweepFiles, files_of_one_name_are_told_apart_by_their_folders) {
   fs::create_directories("other");
   test::write_file(folder.file("other/a.ply"), "");

@@ -148,11 +148,14 @@ TEST(load_balls, drops_repeated_and_degenerate_elements_with_a_warning) {
   EXPECT_EQ(broken_invariant(loaded.axis), "");
 }
 
-TEST(load_balls, passes_over_named_columns_after_the_radius) {
+TEST(load_balls, finds_columns_by_their_names) {
   Warnings warnings;
   const LoadedBalls loaded = parse_balls("x,y,z,r,label\n0,0,0,1,2\n3,4,5,6,1\n", warnings);
   EXPECT_EQ(loaded.balls.radii, (Array<double>{1, 6}));
-  EXPECT_TRUE(names(warnings.text, {"columns 5 and up"}));
+  const LoadedBalls turned = parse_balls("name;Diameter;Z [mm];Y [mm];X [mm]\n7;12;5;4;3\n");
+  EXPECT_EQ(turned.balls.centers, (Array<Vec3>{{3, 4, 5}}));
+  EXPECT_EQ(turned.balls.radii, (Array<double>{6}));
+  EXPECT_TRUE(names(warnings.text, {"of 5 columns those called x, y, z and r"}));
 }
 
 TEST(load_balls, names_element_and_line_of_what_is_wrong) {
@@ -163,14 +166,15 @@ TEST(load_balls, names_element_and_line_of_what_is_wrong) {
   EXPECT_TRUE(names(refusal("0. nan 0 1\n"), {"ball 0", "y is nan", "line 1"}));
   EXPECT_TRUE(names(refusal("0. 0 0 inf\n"), {"ball 0", "r is inf", "line 1"}));
   EXPECT_TRUE(names(refusal("0. 0 0 1e999\n"), {"ball 0", "not a number", "line 1"}));
-  EXPECT_TRUE(names(refusal("x,y,z,nx,ny,nz\n0,0,0,1,0,0\n"), {"\"nx\"", "\"r\" should be", "line 1"}));
+  EXPECT_TRUE(
+      names(refusal("x,y,z,nx,ny,nz\n0,0,0,1,0,0\n"), {"nx", "none is called r or radius", "line 1"}));
   EXPECT_TRUE(names(refusal("x,y,z,r\n"), {"no ball"}));
   EXPECT_TRUE(names(refusal(""), {"no ball"}));
   EXPECT_TRUE(names(refusal("# none\n"), {"no ball"}));
   EXPECT_TRUE(names(refusal("//Maya ASCII 2018 scene\n"), {"\"//Maya\"", "line 1", "readable are"}));
   EXPECT_TRUE(names(refusal("OFF\n3 1 0\n"), {"\"OFF\"", "readable are"}));
   EXPECT_TRUE(names(refusal("0.5 1 2\n"), {"r is missing", "line 1"}));
-  EXPECT_TRUE(names(refusal("7 9\n1 2 3 4\n"), {"\"7\"", "line 1"}));
+  EXPECT_TRUE(names(refusal("7 9\n1 2 3 4\n"), {"\"7 9\"", "line 1", "1 lines follow", "9 balls"}));
   // sph
   EXPECT_TRUE(names(refusal("2\n0 0 0 1\n"), {"promises 2 balls", "ends after at most 1"}));
   EXPECT_TRUE(names(refusal("2\n0.125 0.25 0.5 1\n"), {"ends after 1 of 2 balls", "line 3"}));
@@ -200,6 +204,40 @@ TEST(load_balls, names_element_and_line_of_what_is_wrong) {
   EXPECT_TRUE(names(refusal("1 0 0\nv 0 0 0 1\nv 1 0 0 1\n"), {"\"v\" follows", "line 3"}));
   EXPECT_TRUE(names(refusal("1 0 99999999\nv 0 0 0 1\n"), {"promises 99999999 triangles"}));
   EXPECT_TRUE(names(refusal("0 0 0\n"), {"no ball"}));
+}
+
+TEST(load_balls, reads_decimal_commas_as_decimals_or_not_at_all) {
+  const LoadedBalls blanks = parse_balls("1,5 0,25 -3,0 0,5\n2 1,0 0 1\n");
+  EXPECT_EQ(blanks.balls.centers, (Array<Vec3>{{1.5, 0.25, -3}, {2, 1, 0}}));
+  EXPECT_EQ(blanks.balls.radii, (Array<double>{0.5, 1}));
+  EXPECT_EQ(parse_balls("x;y;z;r\n1,5;0;0;0,5\n").balls.centers, (Array<Vec3>{{1.5, 0, 0}}));
+  EXPECT_EQ(load_balls({"balls:0,5 0 0 1"}).balls.centers, (Array<Vec3>{{0.5, 0, 0}}));
+  EXPECT_TRUE(names(refusal("1,5000,0,0000,0,0000,0,5000\n"), {"\"0\" follows the radius", "line 1"}));
+}
+
+TEST(load_balls, reads_the_leaves_of_sphere_trees) {
+  // Two levels below the root; the second child is a leaf of the first level, the last row is no ball.
+  const std::string tree =
+      "3 2\n0 0 0 4 1\n-1 0 0 2 1\n2 0 0 1.5 1\n-1.5 0 0 1 1\n-0.5 0 0 1.25 1\n0 0 0 -1 1\n0 0 0 -1 1\n";
+  const LoadedBalls loaded = parse_balls(tree);
+  EXPECT_EQ(loaded.balls.radii, (Array<double>{1.5, 1, 1.25}));
+  EXPECT_EQ(loaded.balls.centers, (Array<Vec3>{{2, 0, 0}, {-1.5, 0, 0}, {-0.5, 0, 0}}));
+  EXPECT_TRUE(names(refusal(tree.substr(0, tree.size() - 11)), {"\"3 2\"", "6 lines follow", "3 levels"}));
+  EXPECT_TRUE(names(refusal("3 2\n0 0 0 4 1\n" + std::string("-1 0 0 x 1\n") + tree.substr(29)),
+                    {"ball 1", "r is \"x\"", "line 3"}));
+  // 4 begins a list of MATTopo, too: the number of lines tells them apart.
+  EXPECT_EQ(parse_balls("4 1\n0 0 0 3\n").balls.size(), 1u);
+  EXPECT_EQ(parse_balls("4 1\n0 0 0 4 1\n0 0 0 3 1\n0 0 0 2 1\n0 0 0 1 1\n").balls.radii, (Array<double>{1}));
+}
+
+TEST(load_balls, halves_diameters) {
+  EXPECT_EQ(parse_balls(header_of_ply + "property float diameter\nend_header\n0 0 0 3\n").balls.radii,
+            (Array<double>{1.5}));
+}
+
+TEST(load_balls, names_formats_that_are_not_read) {
+  EXPECT_TRUE(names(refusal("{\"asset\": {\"version\": \"2.0\"}}"), {"a glTF model", "readable are ma"}));
+  EXPECT_TRUE(names(refusal("<?xml version=\"1.0\"?>\n<robot name=\"arm\">"), {"URDF or SRDF"}));
 }
 
 TEST(load_balls, names_the_ball_of_a_list_in_the_parameter) {
