@@ -164,6 +164,7 @@ struct Variant {
 /// "[epsilon=0.1]/enlarge" belongs to those with this epsilon, "poles" to all.
 struct Dag {
   std::string file;
+  std::vector<std::string> files;  // that were read: `file`, then subgraphs, each once
   std::string doc;
   std::map<std::string, Json> params;  // of the top graph, settings applied; not those that are swept
   std::vector<DagNode> nodes;

@@ -141,6 +141,7 @@ Dag parse_graph(const std::string& text, const std::string& file, const Registry
     }
   }
   const bool failed = findings.failed();
+  dag.files = files.names();
   std::vector<Diagnostic> all = findings.take(files.names());
   if (failed) throw GraphError(std::move(all));
   dag.warnings = std::move(all);

@@ -9,10 +9,12 @@
 #include <vector>
 
 #include "ballflow/graph.hpp"
+#include "ballflow/history.hpp"
 #include "ballflow/registry.hpp"
 #include "ballflow/run.hpp"
 #include "ballflow/store.hpp"
 #include "commands/command_line.hpp"
+#include "commands/places.hpp"
 
 namespace ballflow::cli {
 
@@ -22,8 +24,10 @@ struct Common {
   std::vector<std::string> plugins;
   std::string cache, cache_size;
   bool no_cache = false;
+  // Everything below tells it what it reads; what a command writes it has to tell itself, before it begins.
+  std::shared_ptr<Places> places = std::make_shared<Places>();
 
-  std::shared_ptr<const Registry> registry() const { return Registry::load(plugins); }
+  std::shared_ptr<const Registry> registry() const;
   std::shared_ptr<Store> store() const;
   /// Bytes the cache may have: --cache-size, else $BALLFLOW_CACHE_SIZE, else the default of `store`.
   std::uint64_t cache_limit(Store& store) const;
@@ -93,6 +97,10 @@ bool is_run(Store& store, const std::string& name);
 /// The artifact of a digest, null when the cache does not have it. Throws Error (code store) when its file is
 /// damaged.
 ArtifactPtr cached_artifact(const Store& store, const Digest& digest);
+
+/// find_run() for a name on the command line.
+RunRecord named_run(const Common& common, Store& store, const std::string& name,
+                    const std::string& graph_file = {});
 
 /// A file, or the beginning of the digest of an artifact in the cache. Throws Error when it is neither.
 ArtifactPtr find_artifact(const Common& common, const std::string& name);

@@ -14,10 +14,19 @@ namespace ballflow::cli {
 
 namespace fs = std::filesystem;
 
+std::shared_ptr<const Registry> Common::registry() const {
+  std::shared_ptr<const Registry> registry = Registry::load(plugins);
+  for (const PluginCandidate& candidate : registry->candidates())
+    places->reads("a node library", candidate.path);
+  return registry;
+}
+
 std::shared_ptr<Store> Common::store() const {
   StoreOptions options;
   if (!no_cache) options.root = cache.empty() ? Store::default_root() : cache;
-  return Store::open(options);
+  std::shared_ptr<Store> store = Store::open(options);
+  places->has_cache(store->root());
+  return store;
 }
 
 std::uint64_t Common::cache_limit(Store& store) const {
@@ -76,9 +85,20 @@ ArtifactPtr cached_artifact(const Store& store, const Digest& digest) {
               "delete it; the next run that needs it makes it again");
 }
 
+RunRecord named_run(const Common& common, Store& store, const std::string& name,
+                    const std::string& graph_file) {
+  RunRecord run = find_run(store, name, graph_file);
+  std::error_code ignored;
+  if (fs::is_regular_file(run.source, ignored)) common.places->reads("the report of a run", run.source);
+  return run;
+}
+
 ArtifactPtr find_artifact(const Common& common, const std::string& name) {
   std::error_code ignored;
-  if (fs::is_regular_file(name, ignored)) return Artifact::map(name);
+  if (fs::is_regular_file(name, ignored)) {
+    common.places->reads("an artifact", name);
+    return Artifact::map(name);
+  }
   const bool hexadecimal = name.find_first_not_of("0123456789abcdef") == std::string::npos;
   if (hexadecimal && name.size() >= 6 && name.size() <= 64) {
     const auto store = common.store();
@@ -148,6 +168,7 @@ Dag GraphArguments::load(const Common& common, const Registry& registry) const {
   Dag dag = load_graph(file, registry, settings(), {split("--axis", axes, "epsilon=0.1,0.3"), inputs}, {},
                        [&common](const std::string& name) { return find_artifact(common, name); });
   for (const Diagnostic& warning : dag.warnings) std::fprintf(stderr, "%s\n", warning.text().c_str());
+  common.places->reads(dag);
   return dag;
 }
 

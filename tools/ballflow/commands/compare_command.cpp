@@ -15,8 +15,8 @@ struct CompareArguments {
 int show(const Common& common, const CompareArguments& arguments) {
   const auto store = common.store();
   std::vector<RunRecord> runs;
-  if (arguments.runs.empty()) runs.push_back(find_run(*store, "latest"));
-  for (const std::string& name : arguments.runs) runs.push_back(find_run(*store, name));
+  if (arguments.runs.empty()) runs.push_back(named_run(common, *store, "latest"));
+  for (const std::string& name : arguments.runs) runs.push_back(named_run(common, *store, name));
   const std::string table = render(compare(runs, arguments.fields), arguments.format);
   std::fwrite(table.data(), 1, table.size(), stdout);
   return 0;

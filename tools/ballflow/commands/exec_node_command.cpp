@@ -108,6 +108,7 @@ Dag node_dag(const Registry& registry, const ExecNodeArguments& arguments,
     std::map<std::string, ArtifactPtr> given;
     for (const auto& [slot, artifact] : inputs) given.emplace(input_name(slot), artifact);
     Dag dag = parse_graph(graph_text(registry, arguments, inputs), nowhere, registry, settings, {}, given);
+    dag.files.erase(dag.files.begin());
     const std::size_t node = dag.nodes.size() - 1;  // behind its inputs
     for (const PortDecl& port : dag.nodes[node].kind.outputs())
       dag.outputs.push_back({port.name, port.doc, {node, port.name}});
@@ -168,6 +169,8 @@ int exec_node(const Common& common, const ExecNodeArguments& arguments) {
     files[port] = std::move(file);
   }
   const auto store = common.store();
+  common.places->reads(dag);
+  for (const auto& [port, file] : files) common.places->writes("--output " + port, file);
   if (!common.no_cache && !store->why().empty())
     std::fprintf(stderr, "warning: the cache is not written: %s\n", printable(store->why()).c_str());
   const KeepWithin collect_at_the_end(store, common.cache_limit(*store));

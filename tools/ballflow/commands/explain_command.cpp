@@ -85,7 +85,7 @@ int explain_node(const Common& common, const ExplainArguments& arguments) {
     const Dag dag = arguments.graph.load(common, *registry);
     now = records_of(dag, plan(dag, *store, arguments.seed, {}));
   } else {
-    const RunRecord latest = find_run(*store, "latest");
+    const RunRecord latest = named_run(common, *store, "latest");
     now = records_of(latest.report, run_manifests(*store, latest.id));
     now_name = "run " + latest.id;
     latest_id = latest.id;
@@ -93,7 +93,7 @@ int explain_node(const Common& common, const ExplainArguments& arguments) {
   std::string against = arguments.against;
   if (planned && against.empty()) against = "latest";
   if (!planned && (against.empty() || against == "previous")) against = run_before(*store, latest_id);
-  const RunRecord before = find_run(*store, against, graph_file);
+  const RunRecord before = named_run(common, *store, against, graph_file);
   const Manifests manifests = run_manifests(*store, before.id);
   if (manifests.empty()) {
     throw Error(ExitCode::usage, "the keys of run " + before.id + " are not in the cache",

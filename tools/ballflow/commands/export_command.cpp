@@ -27,6 +27,8 @@ std::string formats_help() {
 
 int export_one(const Common& common, const ExportArguments& arguments) {
   const ArtifactPtr artifact = find_artifact(common, arguments.artifact);
+  common.store();  // whose files are not written over, also where the artifact is a file
+  common.places->writes("the exported file", arguments.path);
   export_artifact(*artifact, arguments.path, arguments.format);
   std::printf("wrote %s (%s)\n", printable(arguments.path).c_str(), artifact->type().c_str());
   return 0;

@@ -19,7 +19,8 @@ struct DrawArguments {
 };
 
 int draw(const Common& common, const DrawArguments& arguments) {
-  const std::string page_template = arguments.html.empty() ? "" : viewer_template();
+  const std::string page_template = arguments.html.empty() ? "" : viewer_template(common);
+  common.places->writes("--html", arguments.html);
   const auto registry = common.registry();
   const Dag dag = arguments.graph.load(common, *registry);
   std::vector<NodePlan> plans;

@@ -35,7 +35,26 @@ nlohmann::json read_record(const fs::path& path) {
   return record.is_object() ? record : nlohmann::json::object();
 }
 
+/// The name of the file of an output.
+std::string file_name(const DagOutput& output, const std::string& type,
+                      const std::map<std::string, std::string>& formats, std::string& format) {
+  const auto chosen = formats.find(output.base_name());
+  format = chosen != formats.end() ? chosen->second : default_format(type);
+  return output.name + "." + format;
+}
+
 }  // namespace
+
+void claim_outputs(Places& places, const std::string& folder, const Dag& dag,
+                   const std::map<std::string, std::string>& formats) {
+  places.writes("--out", (fs::path(folder) / record_name).string());
+  for (const DagOutput& output : dag.outputs) {
+    std::string format;
+    const std::string& type = dag.nodes[output.from.node].kind.output(output.from.port)->type;
+    places.writes("the output " + output.name + " of --out",
+                  (fs::path(folder) / file_name(output, type, formats, format)).string());
+  }
+}
 
 void prepare_folder(const std::string& folder) {
   std::error_code error;
@@ -60,9 +79,8 @@ WrittenOutputs write_outputs(const std::string& folder, const Dag& dag, const Ru
       if (candidate.port == output.from.port) entry = &candidate;
     }
     if (entry == nullptr) continue;  // its node failed
-    const auto chosen = formats.find(output.base_name());
-    const std::string format = chosen != formats.end() ? chosen->second : default_format(entry->type);
-    const std::string name = output.name + "." + format;
+    std::string format;
+    const std::string name = file_name(output, entry->type, formats, format);
     const std::string path = (fs::path(folder) / name).string();
     nlohmann::json made = {
         {"digest", entry->digest.hex()}, {"format", format}, {"version", BALLFLOW_VERSION}};

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ballflow/run.hpp"
+#include "commands/places.hpp"
 
 namespace ballflow::cli {
 
@@ -23,6 +24,10 @@ struct WrittenOutputs {
   std::vector<WrittenFile> files;
   std::optional<Error> failure;  // the first; the other outputs are written nevertheless
 };
+
+/// Tells `places` what write_outputs() would write: also the outputs of nodes that may not run.
+void claim_outputs(Places& places, const std::string& folder, const Dag& dag,
+                   const std::map<std::string, std::string>& formats);
 
 /// Creates the folder. Throws Error when that is not possible or nothing can be written in it: to be called
 /// before anything is computed.

@@ -13,6 +13,7 @@
 #include "ballflow/output_file.hpp"
 #include "ballflow/text.hpp"
 #include "commands/commands.hpp"
+#include "commands/watched.hpp"
 #include "sample/sample.hpp"
 #include "show/picture/number.hpp"
 #include "show/picture/picture.hpp"
@@ -36,14 +37,6 @@ struct Source {
   std::vector<show::Layer> layers;
   ArtifactPtr artifact;  // whose memory the layers view
   std::string from;      // what of the command line it comes from, in short
-};
-
-class SignalMonitor final : public geometry::Monitor {
- public:
-  bool cancelled() override { return flag_.load(); }
-
- private:
-  const std::atomic<bool>& flag_ = cancel_on_signals();
 };
 
 /// Says on a terminal how much is drawn.
@@ -83,23 +76,17 @@ bool is_model(const std::string& name) {
 Source source_of_model(const std::string& name, geometry::Monitor& monitor) {
   geometry::SampleOptions options;
   options.file = name;
-  try {
-    const geometry::MeshFile model = geometry::sample(options, 0, monitor);
-    Source source;
-    source.label =
-        name.starts_with("shape:") ? name.substr(6, name.find('?') - 6) : fs::path(name).stem().string();
-    source.layers.push_back(model.mesh.triangles.empty() ? show::layer_of(model.points)
-                                                         : show::layer_of(model.mesh));
-    return source;
-  } catch (const geometry::InputError& error) {
-    const std::string text = error.what();
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    throw Error(ExitCode::usage, text.substr(0, end), text.substr(std::min(end + 1, text.size())));
-  }
+  const geometry::MeshFile model = geometry::sample(options, 0, monitor);
+  Source source;
+  source.label =
+      name.starts_with("shape:") ? name.substr(6, name.find('?') - 6) : fs::path(name).stem().string();
+  source.layers.push_back(model.mesh.triangles.empty() ? show::layer_of(model.points)
+                                                       : show::layer_of(model.mesh));
+  return source;
 }
 
-void add_run(std::vector<Source>& sources, Store& store, const std::string& name) {
-  const RunRecord run = find_run(store, name);
+void add_run(const Common& common, std::vector<Source>& sources, Store& store, const std::string& name) {
+  const RunRecord run = named_run(common, store, name);
   const std::size_t before = sources.size();
   std::string others;
   for (const auto& [output, entry] : run.report.at("outputs").items()) {
@@ -132,9 +119,10 @@ std::vector<Source> find_sources(const Common& common, const std::vector<std::st
   for (const std::string& name : names) {
     const std::size_t before = sources.size();
     if (is_model(name)) {
+      if (!name.starts_with("shape:")) common.places->reads("a model", name);
       sources.push_back(source_of_model(name, monitor));
     } else if (is_run(*store, name)) {
-      add_run(sources, *store, name);
+      add_run(common, sources, *store, name);
     } else {
       Source source;
       source.label = fs::path(name).filename().string();
@@ -296,8 +284,9 @@ int render(const Common& common, const RenderArguments& arguments) {
   options.legend = !arguments.no_legend;
   options.threads = arguments.threads;
 
-  SignalMonitor monitor;
-  try {
+  common.store();
+  common.places->writes("--output", arguments.output);
+  watched("no picture was written", [&](geometry::Monitor& monitor) {
     std::vector<Source> sources = find_sources(common, arguments.names, monitor);
     for (const std::string& text : arguments.colour_by) colour(sources, text);
     for (const std::string& text : arguments.opacity) set_opacity(sources, text);
@@ -307,9 +296,7 @@ int render(const Common& common, const RenderArguments& arguments) {
       return show::draw_beside(scenes, options, drawing);
     }();
     write_atomically(arguments.output, show::png(image));
-  } catch (const geometry::Cancelled&) {
-    throw Error(ExitCode::cancelled, "cancelled; no picture was written");
-  }
+  });
   std::printf("wrote %s (%d x %d)\n", printable(arguments.output).c_str(), options.width, options.height);
   return 0;
 }

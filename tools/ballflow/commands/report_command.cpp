@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <atomic>
 #include <cstdio>
 
 #include "ballflow/history.hpp"
 #include "ballflow/output_file.hpp"
 #include "ballflow/text.hpp"
 #include "commands/commands.hpp"
+#include "commands/watched.hpp"
 #include "report/report_page.hpp"
 #include "show/picture/picture.hpp"
 
@@ -17,17 +17,8 @@ struct ReportArguments {
   std::size_t pictures = 12;
 };
 
-class SignalMonitor final : public geometry::Monitor {
- public:
-  bool cancelled() override { return flag_.load(); }
-
- private:
-  const std::atomic<bool>& flag_ = cancel_on_signals();
-};
-
 /// Of the outputs that can be drawn, in the order of the variants, as long as the cache has them.
-void draw_outputs(report::ReportInput& input, Store& store, std::size_t most) {
-  SignalMonitor monitor;
+void draw_outputs(report::ReportInput& input, Store& store, std::size_t most, geometry::Monitor& monitor) {
   for (const auto& [name, output] : input.run.report.at("outputs").items()) {
     const auto digest = Digest::from_hex(output.at("digest").get<std::string>());
     if (!digest || !show::can_be_shown(output.at("type").get<std::string>())) continue;
@@ -50,16 +41,14 @@ void draw_outputs(report::ReportInput& input, Store& store, std::size_t most) {
 
 int write(const Common& common, const ReportArguments& arguments) {
   const auto store = common.store();
+  common.places->writes("--output", arguments.path);
   const auto registry = common.registry();
   report::ReportInput input;
-  input.run = find_run(*store, arguments.run);
+  input.run = named_run(common, *store, arguments.run);
   input.manifests = run_manifests(*store, input.run.id);
   input.registry = registry.get();
-  try {
-    draw_outputs(input, *store, arguments.pictures);
-  } catch (const geometry::Cancelled&) {
-    throw Error(ExitCode::cancelled, "cancelled; no page was written");
-  }
+  watched("no page was written",
+          [&](geometry::Monitor& monitor) { draw_outputs(input, *store, arguments.pictures, monitor); });
   write_atomically(arguments.path, report::report_page(input));
   std::printf("wrote %s\n", printable(arguments.path).c_str());
   return 0;

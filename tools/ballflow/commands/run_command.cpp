@@ -180,13 +180,18 @@ int run(const Common& common, const RunArguments& arguments) {
   const std::string report_path = !arguments.report.empty() || arguments.out.empty() || dag.variants.empty()
                                       ? arguments.report
                                       : arguments.out + "/report.json";
+  const auto store = common.store();
   // Before hours of computing, not after them.
-  if (!arguments.out.empty()) prepare_folder(arguments.out);
+  common.places->writes("--report", report_path);
+  common.places->writes("--trace", arguments.trace);
+  if (!arguments.out.empty()) {
+    claim_outputs(*common.places, arguments.out, dag, formats);
+    prepare_folder(arguments.out);
+  }
   check_writable("--report", report_path);
   check_writable("--trace", arguments.trace);
   RunOptions options = arguments.settings.options(dag);
   if (!dag.variants.empty()) options.keep_going = true;  // one that fails must not void the others
-  const auto store = common.store();
   if (!common.no_cache && !store->why().empty()) {
     std::fprintf(stderr, "warning: the cache is not written: %s\n", store->why().c_str());
   }

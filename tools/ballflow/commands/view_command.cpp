@@ -30,7 +30,8 @@ std::uint64_t page_bytes(const std::string& size) {
 }
 
 int view(const Common& common, const ViewArguments& arguments) {
-  const std::string page_template = viewer_template();
+  const std::string page_template = viewer_template(common);
+  common.places->writes("--output", arguments.output);
   const auto registry = common.registry();
   const auto store = common.store();
   show::Page page(*registry, page_bytes(arguments.max_size));
@@ -38,7 +39,7 @@ int view(const Common& common, const ViewArguments& arguments) {
   if (names.empty()) names.push_back("latest");
   for (const std::string& name : names) {
     if (is_run(*store, name)) {
-      page.add_run(find_run(*store, name));
+      page.add_run(named_run(common, *store, name));
     } else {
       const std::string file = fs::path(name).filename().string();
       page.add_artifact(file.size() == 64 ? file.substr(0, 12) : file, find_artifact(common, name));

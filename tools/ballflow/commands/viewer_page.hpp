@@ -3,9 +3,11 @@
 
 #include <string>
 
+#include "commands/commands.hpp"
+
 namespace ballflow::cli {
 
 /// Throws Error (code store) that says how to get it when it was not built.
-std::string viewer_template();
+std::string viewer_template(const Common& common);
 
 }  // namespace ballflow::cli
