@@ -64,22 +64,24 @@ class Triangles {
   const TriangleMesh& mesh_;
 };
 
-}  // namespace
-
-std::optional<Pair> self_intersection(const TriangleMesh& mesh, Monitor& monitor) {
+/// Calls visit(s, t) for pairs of triangles with a point in common which is not their common vertex or edge,
+/// and flat(t) for triangles without area, which are in no pair. Ends early where one of them returns false.
+template <class Flat, class Visit>
+void for_each_intersection(const TriangleMesh& mesh, Monitor& monitor, const Flat& flat, const Visit& visit) {
   using TriangleBox = CGAL::Box_intersection_d::Box_with_handle_d<double, 3, const Triangle*>;
+  struct Enough {};
   Lookout look(monitor);
   const Triangles triangles(mesh);
   std::vector<TriangleBox> boxes;
   boxes.reserve(mesh.triangles.size());
   for (std::int32_t t = 0; static_cast<std::size_t>(t) < mesh.triangles.size(); ++t) {
     look(64);
-    if (triangles.flat(t)) return Pair{t, t};
-    boxes.emplace_back(triangles.box(t), mesh.triangles.data() + t);
+    if (!triangles.flat(t)) {
+      boxes.emplace_back(triangles.box(t), mesh.triangles.data() + t);
+    } else if (!flat(t)) {
+      return;
+    }
   }
-  struct Found {
-    Pair pair;
-  };
   const auto index = [&](const TriangleBox& box) {
     return static_cast<std::int32_t>(box.handle() - mesh.triangles.data());
   };
@@ -87,13 +89,45 @@ std::optional<Pair> self_intersection(const TriangleMesh& mesh, Monitor& monitor
     CGAL::box_self_intersection_d(boxes.begin(), boxes.end(),
                                   [&](const TriangleBox& a, const TriangleBox& b) {
                                     look(256);
-                                    if (triangles.intersect(index(a), index(b)))
-                                      throw Found{{index(a), index(b)}};
+                                    if (triangles.intersect(index(a), index(b)) && !visit(index(a), index(b)))
+                                      throw Enough();
                                   });
-  } catch (const Found& found) {
-    return found.pair;
+  } catch (const Enough&) {
   }
-  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Pair> self_intersection(const TriangleMesh& mesh, Monitor& monitor) {
+  std::optional<Pair> found;
+  for_each_intersection(
+      mesh, monitor,
+      [&](std::int32_t t) {
+        found = Pair{t, t};
+        return false;
+      },
+      [&](std::int32_t s, std::int32_t t) {
+        found = Pair{s, t};
+        return false;
+      });
+  return found;
+}
+
+SelfIntersections self_intersections(const TriangleMesh& mesh, std::size_t most, Monitor& monitor) {
+  SelfIntersections found;
+  for_each_intersection(
+      mesh, monitor,
+      [&](std::int32_t t) {
+        found.flat.push_back(t);
+        return true;
+      },
+      [&](std::int32_t s, std::int32_t t) {
+        found.all = found.pairs.size() < most;
+        if (found.all) found.pairs.push_back({std::min(s, t), std::max(s, t)});
+        return found.all;
+      });
+  std::sort(found.pairs.begin(), found.pairs.end());
+  return found;
 }
 
 }  // namespace ballflow::geometry

@@ -1,0 +1,148 @@
+#include "look/look.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "search/box_tree.hpp"
+
+namespace ballflow::geometry {
+namespace {
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+double middle_of(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Spacing spacing_of(const TriangleMesh& mesh) {
+  std::vector<double> lengths;
+  lengths.reserve(3 * mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k)
+      lengths.push_back(distance(mesh.vertices[at(t[k])], mesh.vertices[at(t[(k + 1) % 3])]));
+  }
+  if (lengths.empty()) return {};
+  const double largest = *std::max_element(lengths.begin(), lengths.end());
+  return {middle_of(lengths), largest};
+}
+
+Spacing spacing_of(std::span<const Vec3> points, Monitor& monitor) {
+  Lookout look(monitor);
+  const BoxTree tree(points, BoxTree::default_leaf_size, monitor);
+  std::vector<double> distances;
+  for (std::size_t i = 0; i < points.size() && points.size() > 1; ++i) {
+    look(64);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    distances.push_back(tree.smallest(points[i], infinity, -1, [&](std::size_t k) {
+      return k == i ? infinity : distance(points[i], points[k]);
+    }));
+  }
+  if (distances.empty()) return {};
+  const double largest = *std::max_element(distances.begin(), distances.end());
+  return {middle_of(distances), largest};
+}
+
+double area_of(const TriangleMesh& mesh) {
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vec3 p = mesh.vertices[at(a)];
+    sum += length(cross(mesh.vertices[at(b)] - p, mesh.vertices[at(c)] - p)) / 2;
+  }
+  return sum;
+}
+
+/// Why the solid inside the surface has no known topology; empty when it has.
+std::string why_unknown(const Look& look) {
+  const MeshTopology& mesh = look.topology;
+  if (mesh.boundary_edges > 0) return "the surface is open";
+  if (!mesh.closed || !mesh.manifold) return "the surface is not a manifold";
+  if (!look.orientable) return "the surface is not orientable";
+  if (!look.intersections.flat.empty()) return "the surface has triangles without area";
+  if (!look.intersections.pairs.empty()) return "the surface intersects itself";
+  return "";
+}
+
+void look_inside(const SurfaceChain& chain, const LookOptions& options, Look& look, Monitor& monitor) {
+  TriangleMesh& mesh = look.outwards;
+  look.shells = shells_of(mesh, monitor);
+  const Shells& shells = *look.shells;
+  std::vector<Triangle> triangles = chain.triangles;
+  for (std::size_t f = 0; f < triangles.size(); ++f) {
+    if (shells.inside_out != shells.shells[at(shells.shell[f])].turned)
+      std::swap(triangles[f][1], triangles[f][2]);
+  }
+  mesh.triangles = std::move(triangles);
+  look.widths = widths_of(mesh, options.widths, monitor);
+  if (look.unknown_because.empty()) look.betti = shells.betti();
+}
+
+}  // namespace
+
+std::vector<std::int32_t> stray_points(std::span<const Vec3> points) {
+  std::vector<std::int32_t> stray;
+  if (points.empty()) return stray;
+  std::vector<double> x, y, z;
+  for (const Vec3& p : points) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
+  const Vec3 middle{middle_of(x), middle_of(y), middle_of(z)};
+  std::vector<double> distances;
+  for (const Vec3& p : points) distances.push_back(distance(p, middle));
+  std::vector<double> sorted = distances;
+  const auto most = sorted.begin() + static_cast<std::ptrdiff_t>((points.size() - 1) * 99 / 100);
+  std::nth_element(sorted.begin(), most, sorted.end());
+  const double limit = 3 * *most;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (distances[i] > limit) stray.push_back(static_cast<std::int32_t>(i));
+  }
+  return stray;
+}
+
+Look look_at(const MeshFile& model, const LookOptions& options, Monitor& monitor) {
+  Look look;
+  const auto points = model.points.points.span();
+  look.box = bounding_box(points);
+  look.stray = stray_points(points);
+  if (!look.stray.empty()) {
+    Box others;
+    auto next = look.stray.begin();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (next != look.stray.end() && at(*next) == i) {
+        ++next;
+      } else {
+        others.add(points[i]);
+      }
+    }
+    look.stretched = look.box.longest_edge() / others.longest_edge();
+  }
+  const TriangleMesh& mesh = model.mesh;
+  if (mesh.triangles.empty()) {
+    look.spacing = spacing_of(points, monitor);
+    return look;
+  }
+  look.spacing = spacing_of(mesh);
+  look.area = area_of(mesh);
+  look.topology = mesh_topology(mesh);
+  monitor.step(0.1);
+  const SurfaceChain chain = surface_chain(mesh);
+  look.turned = chain.turned;
+  look.orientable = chain.contradictions == 0;
+  look.closed = chain.closed();
+  monitor.step(0.2);
+  look.intersections = self_intersections(mesh, options.most_intersections, monitor);
+  monitor.step(0.5);
+  look.unknown_because = why_unknown(look);
+  look.gaps = gaps_of(mesh, monitor);
+  monitor.step(0.6);
+  if (look.closed) {
+    look.outwards = {mesh.vertices, chain.triangles};
+    look_inside(chain, options, look, monitor);
+  }
+  monitor.step(1);
+  return look;
+}
+
+}  // namespace ballflow::geometry

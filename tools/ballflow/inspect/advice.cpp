@@ -1,0 +1,211 @@
+#include "inspect/advice.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ballflow/text.hpp"
+
+namespace ballflow::inspect {
+namespace {
+
+using geometry::Vec3;
+
+std::string counted(std::int64_t n, const std::string& one, const std::string& many) {
+  return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
+std::string place(Vec3 p) {
+  return "(" + short_number(p.x) + ", " + short_number(p.y) + ", " + short_number(p.z) + ")";
+}
+
+/// Collects findings and the options that follow from them.
+class Adviser {
+ public:
+  explicit Adviser(ModelReport& report) : report_(report), look_(report.look) {}
+
+  void run() {
+    predict();
+    if (!look_.stray.empty()) stray();
+    if (!report_.model.mesh.triangles.empty()) {
+      open();
+      connected();
+      crossing();
+      shells();
+      thin();
+    }
+    std::string line = "ballflow run graphs/medial_axis.json --set " + shell_word("input=" + report_.path);
+    for (const std::string& option : options_) line += " --set " + option;
+    report_.command = line + " --out out";
+  }
+
+ private:
+  void say(std::string what, std::string remedy) {
+    report_.findings.push_back({std::move(what), std::move(remedy)});
+  }
+
+  void predict() {
+    report_.samples = static_cast<std::int64_t>(report_.model.points.points.size());
+    if (report_.model.mesh.triangles.empty()) {
+      report_.labels = "angle";
+      report_.labels_reason = "a cloud of points has no mesh that says what is inside";
+    } else if (look_.closed) {
+      report_.labels = "mesh";
+      report_.labels_reason = "the surface is closed: what is inside is decided exactly";
+    } else {
+      report_.labels = "winding";
+      report_.labels_reason =
+          "the surface is not closed: the generalized winding number tells inside from outside";
+    }
+  }
+
+  void stray() {
+    std::string places;
+    for (std::size_t i = 0; i < std::min<std::size_t>(look_.stray.size(), 3); ++i)
+      places +=
+          (i == 0 ? "" : ", ") + place(report_.model.points.points[static_cast<std::size_t>(look_.stray[i])]);
+    say(counted(static_cast<std::int64_t>(look_.stray.size()), "point lies", "points lie") +
+            " far away from all others and make the model " + short_number(look_.stretched) +
+            " times as large: " + places,
+        "leave them out of the file: sizes in % of the bounding box mean nothing with them");
+  }
+
+  void open() {
+    const geometry::Gaps& gaps = look_.gaps;
+    if (gaps.open_edges == 0) return;
+    const geometry::Rim& rim = gaps.rims.front();
+    const std::string what = "the surface is open: " + counted(gaps.open_edges, "edge", "edges") +
+                             " with one triangle in " +
+                             counted(static_cast<std::int64_t>(gaps.rims.size()), "rim", "rims") +
+                             ", the longest with " + counted(rim.edges, "edge", "edges") + " and " +
+                             short_number(rim.size) + " wide around " + place(rim.middle);
+    if (gaps.weld > 0 && gaps.left == 0) {
+      say(what, "welding vertices that are at most " + short_number(gaps.weld) + " apart closes all of it");
+    } else if (gaps.weld > 0 && 2 * gaps.left < gaps.open_edges) {
+      say(what, "welding vertices that are at most " + short_number(gaps.weld) + " apart closes all but " +
+                    counted(gaps.left, "edge", "edges") + "; the holes that are left have to be filled");
+    } else {
+      say(what, "no welding closes it: fill the holes, or expect poles near them to be labelled by a vote");
+    }
+  }
+
+  void connected() {
+    const geometry::MeshTopology& mesh = look_.topology;
+    if (mesh.nonmanifold_edges > 0) {
+      say(counted(mesh.nonmanifold_edges, "edge belongs", "edges belong") + " to more than two triangles",
+          look_.closed ? "what is inside is known all the same; the topology of the solid is not"
+                       : "remove inner walls and parts that only touch");
+    } else if (!mesh.manifold && mesh.boundary_edges == 0) {
+      say("parts of the surface touch in single corners",
+          "the topology of the solid is not compared; separate them");
+    }
+    if (!look_.orientable) {
+      say("the surface is not orientable: it has only one side", "no inside can be told; cut it or close it");
+    } else if (look_.turned > 0) {
+      say(counted(look_.turned, "triangle faces", "triangles face") + " another way than its neighbours",
+          "they are turned over for the labels; nothing has to be done");
+    }
+  }
+
+  void crossing() {
+    const geometry::SelfIntersections& found = look_.intersections;
+    if (!found.flat.empty()) {
+      say(counted(static_cast<std::int64_t>(found.flat.size()), "triangle has", "triangles have") +
+              " three different corners and no area",
+          "collapse them where the mesh was made; the topology of the solid is not compared otherwise");
+    }
+    if (!found.pairs.empty()) {
+      say((found.all ? "" : "more than ") +
+              counted(static_cast<std::int64_t>(found.pairs.size()), "pair of triangles crosses",
+                      "pairs of triangles cross") +
+              ": the surface intersects itself, first at " + place(middle_of(found.pairs.front())),
+          look_.closed
+              ? "inside is what it winds around at least once; the volume by formula counts overlaps twice"
+              : "repair it where the mesh was made");
+    }
+  }
+
+  Vec3 middle_of(const std::array<std::int32_t, 2>& pair) const {
+    geometry::Box boxes[2];
+    for (std::size_t i = 0; i < 2; ++i) {
+      for (const std::int32_t v : report_.model.mesh.triangles[static_cast<std::size_t>(pair[i])])
+        boxes[i].add(report_.model.mesh.vertices[static_cast<std::size_t>(v)]);
+    }
+    const auto between = [](double a, double b, double c, double d) {
+      return (std::max(a, b) + std::min(c, d)) / 2;
+    };
+    const auto& [a, b] = boxes;
+    return {between(a.lower.x, b.lower.x, a.upper.x, b.upper.x),
+            between(a.lower.y, b.lower.y, a.upper.y, b.upper.y),
+            between(a.lower.z, b.lower.z, a.upper.z, b.upper.z)};
+  }
+
+  void shells() {
+    if (!look_.shells) return;
+    std::int64_t turned = 0, idle = 0;
+    for (const geometry::Shell& shell : look_.shells->shells) {
+      turned += shell.turned;
+      idle += !shell.bounds;
+    }
+    if (look_.shells->inside_out) {
+      say("the surface faces inwards", "it is turned over for the labels; nothing has to be done");
+    }
+    if (turned > 0) {
+      say(counted(turned, "shell faces", "shells face") + " inwards and bounds no cavity",
+          "they count as solids; turn them in the file if they should not");
+    }
+    if (idle > 0) {
+      say(counted(idle, "shell lies", "shells lie") +
+              " inside the solid and faces outwards as the shell around does: it bounds nothing",
+          "turn it over in the file if it is a cavity, else remove it: its samples only cost balls");
+    }
+  }
+
+  void thin() {
+    if (!look_.widths) return;
+    const geometry::Widths& widths = *look_.widths;
+    const double box = look_.box.longest_edge();
+    // A sample sees what is about as far as the next sample; half of that leaves room for both sides.
+    double need = box;
+    if (widths.wall) need = std::min(need, widths.wall->width / 2);
+    if (widths.slot) need = std::min(need, widths.slot->width / 2);
+    std::string what;
+    if (widths.thin_walls > 0) {
+      what = counted(widths.thin_walls, "place is", "places are") + " thinner than its triangle is long, " +
+             short_number(widths.wall->width) + " at the thinnest, at " + place(widths.wall->from);
+    }
+    if (widths.narrow_slots > 0) {
+      what += (what.empty() ? "" : "; ") + counted(widths.narrow_slots, "place has", "places have") +
+              " another one opposite as near, " + short_number(widths.slot->width) + " at the nearest, at " +
+              place(widths.slot->from);
+    }
+    const bool coarse = look_.spacing.largest > box / 10;
+    if (what.empty() && !coarse) return;
+    if (what.empty()) {
+      what = "vertices are up to " + short_number(look_.spacing.largest) +
+             " apart, more than a tenth of the model: there are too few samples at the vertices";
+      need = std::min(need, box / 100);
+    }
+    // Evenly spread points that are d apart cover about 0.87 d^2 each.
+    const double count = look_.area / (0.87 * need * need);
+    constexpr double most = 1e5;  // what a run takes in about a minute
+    const double rounded = std::ceil(std::clamp(count, 1000.0, most) / 1000) * 1000;
+    options_.push_back("dmt/sample.mode=surface");
+    options_.push_back("dmt/sample.count=" + std::to_string(static_cast<std::int64_t>(rounded)));
+    say(what, "sample the faces instead of the vertices: dmt/sample.mode=surface with " +
+                  std::to_string(static_cast<std::int64_t>(rounded)) + " points" +
+                  (count > most
+                       ? "; more would be needed everywhere for what is thin in few places, so look whether "
+                         "the topology is kept"
+                       : ""));
+  }
+
+  ModelReport& report_;
+  const geometry::Look& look_;
+  std::vector<std::string> options_;
+};
+
+}  // namespace
+
+void advise(ModelReport& report) { Adviser(report).run(); }
+
+}  // namespace ballflow::inspect
