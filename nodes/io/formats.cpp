@@ -93,7 +93,7 @@ bool is_number(std::string_view token) { return parse_real(token).has_value(); }
 bool is_obj(std::string_view content) {
   static constexpr std::array<std::string_view, 9> first_words = {"mtllib", "usemtl", "o",  "g", "s",
                                                                   "v",      "vn",     "vt", "f"};
-  TextCursor text(content.substr(0, 16 * beginning), '#');
+  TextCursor text(content.substr(0, 16 * beginning), '#', {}, '\\');
   std::string_view word = text.token();
   if (std::find(first_words.begin(), first_words.end(), word) == first_words.end()) return false;
   for (; !word.empty(); text.next_line(), word = text.token()) {

@@ -11,6 +11,7 @@
 #include "io/ball_lines.hpp"
 #include "io/file_content.hpp"
 #include "io/formats.hpp"
+#include "io/lengths.hpp"
 #include "io/number_rows.hpp"
 #include "io/raw_model.hpp"
 #include "io/text_cursor.hpp"
@@ -163,6 +164,34 @@ LoadedBalls only(Balls balls) {
   return loaded;
 }
 
+LoadedBalls scaled(LoadedBalls loaded, double scale) {
+  if (scale == 1) return loaded;
+  const auto scaled_points = [scale](const Array<Vec3>& points) {
+    std::vector<Vec3> result(points.begin(), points.end());
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      result[i] = scale * result[i];
+      require_finite(result[i], "scaled ball", static_cast<std::int64_t>(i));
+    }
+    return result;
+  };
+  const auto scaled_radii = [scale](const Array<double>& radii) {
+    std::vector<double> result(radii.begin(), radii.end());
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      result[i] *= scale;
+      if (std::isfinite(result[i])) continue;
+      throw InputError(
+          place_of_element("scaled ball", static_cast<std::int64_t>(i)) + "the radius is not finite",
+          "take a smaller scale");
+    }
+    return result;
+  };
+  loaded.balls.centers = scaled_points(loaded.balls.centers);
+  loaded.balls.radii = scaled_radii(loaded.balls.radii);
+  loaded.axis.vertices = scaled_points(loaded.axis.vertices);
+  loaded.axis.radii = scaled_radii(loaded.axis.radii);
+  return loaded;
+}
+
 }  // namespace
 
 bool is_ball_rows(std::string_view content) {
@@ -232,13 +261,14 @@ LoadedBalls parse_balls(std::string_view content, Monitor& monitor) {
 }
 
 LoadedBalls load_balls(const LoadBallsOptions& options, Monitor& monitor) {
+  const double scale = parse_scale(options.scale);
   if (options.file.starts_with(inline_scheme)) {
     std::string rows = options.file.substr(inline_scheme.size());
     std::replace(rows.begin(), rows.end(), ';', '\n');
-    return only(parse_ball_rows(rows, monitor));
+    return scaled(only(parse_ball_rows(rows, monitor)), scale);
   }
   const FileContent content = read_file_content(options.file, max_bytes);
-  return parse_balls(content.view(), monitor);
+  return scaled(parse_balls(content.view(), monitor), scale);
 }
 
 }  // namespace ballflow::geometry

@@ -14,6 +14,7 @@ struct LoadBallsOptions {
   // A file, also packed (gzip, zstd), or balls: and the balls themselves, separated by semicolons
   // ("balls:0 0 0 1; 1.5 0 0 1").
   std::string file;
+  std::string scale = "1";  // of centres and radii: a factor, or the unit of the file, see parse_scale
 };
 
 struct LoadedBalls {
@@ -36,7 +37,8 @@ struct LoadedBalls {
 /// - PLY: the vertices with their property radius, or diameter; everything else is passed over.
 ///
 /// "#" begins a comment, except in PLY. Numbers are read with the decimal point in every locale and rounded
-/// to the nearest double; they are not changed. In an axis, repeated edges and triangles, and those that use
+/// to the nearest double; they are not changed but by the
+/// scale. In an axis, repeated edges and triangles, and those that use
 /// a vertex twice, are dropped with a warning.
 ///
 /// Throws InputError, naming the element and the line, for what is no number, not finite, negative as a

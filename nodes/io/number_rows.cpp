@@ -24,6 +24,25 @@ std::size_t commas(std::string_view token) {
   return static_cast<std::size_t>(std::count(token.begin(), token.end(), ','));
 }
 
+/// "1.234,5"
+bool has_thousands(std::string_view token) {
+  const std::size_t comma = token.find(',');
+  return commas(token) == 1 && comma >= 4 && token[comma - 4] == '.' &&
+         token.find('.', comma) == std::string_view::npos;
+}
+
+/// Whether all blanks between fields have a comma beside them.
+bool commas_separate_fields(std::string_view line) {
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (!is_blank(line[i])) continue;
+    const std::size_t begin = i;
+    while (i < line.size() && is_blank(line[i])) ++i;
+    if (i == line.size() || begin == 0) continue;
+    if (line[begin - 1] != ',' && line[i] != ',') return false;
+  }
+  return true;
+}
+
 /// The name of a column in small letters, without quotes and unit: "X [mm]" is x.
 std::string plain_name(std::string_view field) {
   std::string name;
@@ -41,6 +60,22 @@ std::string plain_name(std::string_view field) {
   return name;
 }
 
+/// Whether tabs, and no other blanks, are between the names: "X [mm]" is one.
+bool is_table_of_tabs(std::string_view names) {
+  if (names.find('\t') == std::string_view::npos) return false;
+  bool unit = false;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] == '[' || names[i] == '(') unit = true;
+    if (names[i] == '\t') unit = false;
+    if (names[i] != ' ' || unit) continue;
+    const std::size_t next = names.find_first_not_of(' ', i);
+    if (next != std::string_view::npos && names[next] != '[' && names[next] != '(' && names[next] != '\t') {
+      return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 std::string_view NumberRows::next_line() {
@@ -48,7 +83,9 @@ std::string_view NumberRows::next_line() {
     if (lines_++ % elements_per_step == 0) {
       monitor_.step(0.8 * static_cast<double>(text_.offset()) / static_cast<double>(size_ + 1));
     }
-    const std::string_view rest = text_.rest_of_line();
+    std::string_view rest = text_.rest_of_line();
+    rest = rest.substr(0, rest.find('#'));
+    while (!rest.empty() && is_blank(rest.back())) rest.remove_suffix(1);
     if (!rest.empty() || text_.at_end()) return rest;
   }
 }
@@ -58,9 +95,10 @@ bool NumberRows::read_names() {
   const std::string_view line = next_line();
   std::string_view words = line;
   if (words.starts_with("//")) words.remove_prefix(2);
-  for (const char c : {';', ',', '\t'}) {
+  for (const char c : {';', ','}) {
     if (delimiter_ == 0 && words.find(c) != std::string_view::npos) delimiter_ = c;
   }
+  if (delimiter_ == 0 && is_table_of_tabs(words)) delimiter_ = '\t';
   split(words, true);
   // A word begins with a letter, perhaps in quotes. A line with any number in it is none of names.
   bool names = !fields_.empty();
@@ -100,6 +138,7 @@ bool NumberRows::next() {
     }
     split(line_, meaning == Commas::separate);
     if (fields_.empty()) continue;
+    require_equal_columns();
     return true;
   }
   // Only now it is known that no number has a decimal point.
@@ -127,6 +166,9 @@ NumberRows::Commas NumberRows::meaning_of_commas(std::string_view line) {
     bool plain = true;
     for (std::size_t i = 0; i < least_; ++i) plain = plain && commas(fields_[i]) == 0;
     if (plain || commas(fields_[0]) + 1 >= least_) return Commas::separate;
+    // "1.5,2.5, 3.5", where no blank is without a comma.
+    const bool thousands = std::any_of(fields_.begin(), fields_.end(), has_thousands);
+    if (point && !thousands && commas_separate_fields(line)) return Commas::separate;
     refuse_commas("commas beside decimal points: they may separate numbers, or thousands");
   }
   if (point) return Commas::separate;
@@ -134,9 +176,6 @@ NumberRows::Commas NumberRows::meaning_of_commas(std::string_view line) {
   if (whole_fields_ == 0) {
     whole_fields_ = fields_.size();
     whole_line_ = line;
-  } else if (whole_fields_ != fields_.size()) {
-    refuse_commas(std::to_string(fields_.size()) + " whole numbers between commas, in an earlier line " +
-                  std::to_string(whole_fields_) + ": commas may separate or be decimal");
   }
   if (!names_.empty() && fields_.size() > names_.size()) {
     refuse_commas(std::to_string(fields_.size()) + " whole numbers between commas for " +
@@ -145,15 +184,39 @@ NumberRows::Commas NumberRows::meaning_of_commas(std::string_view line) {
   return Commas::separate;
 }
 
+void NumberRows::require_equal_columns() {
+  const std::size_t columns = fields_.size() + dropped_;
+  if (columns < 2) return;  // a number of points
+  if (columns_ == 0) {
+    columns_ = columns;
+    first_line_ = line_;
+  } else if (columns != columns_ && ragged_line_.empty()) {
+    ragged_line_ = line_;
+  }
+  // Without commas a line may have more than another; with them it may be meant differently.
+  if (commas_ != Commas::separate || ragged_line_.empty()) return;
+  line_ = ragged_line_;
+  split(line_, true);
+  refuse_commas("commas separate fields, but the line has " + std::to_string(fields_.size() + dropped_) +
+                " of them and the first one " + std::to_string(columns_) + text_.place_of(first_line_));
+}
+
 void NumberRows::refuse_commas(const std::string& what) const {
   throw InputError(
       what + place(),
       "write numbers with decimal points, or with decimal commas and blanks or semicolons between");
 }
 
+bool NumberRows::is_delimited(std::string_view line) const {
+  if (delimiter_ == 0) return false;
+  const auto count = static_cast<std::size_t>(std::count(line.begin(), line.end(), delimiter_));
+  // Lines may have any blanks under names with tabs between them, but not with as many tabs.
+  return delimiter_ == '\t' && !names_.empty() ? count + 1 == names_.size() : count > 0;
+}
+
 void NumberRows::split(std::string_view line, bool at_commas) {
   fields_.clear();
-  if (delimiter_ != 0 && line.find(delimiter_) != std::string_view::npos) return split_at(line, delimiter_);
+  if (is_delimited(line)) return split_at(line, delimiter_);
   bool open = true;  // nothing since the last separator that is no blank
   for (std::size_t i = 0; i < line.size();) {
     const char c = line[i];
@@ -177,7 +240,13 @@ void NumberRows::split(std::string_view line, bool at_commas) {
       i = end;
     }
   }
+  drop_empty_end();
+}
+
+void NumberRows::drop_empty_end() {
+  const std::size_t before = fields_.size();
   while (!fields_.empty() && fields_.back().empty()) fields_.pop_back();
+  dropped_ = before - fields_.size();
 }
 
 void NumberRows::split_at(std::string_view line, char delimiter) {
@@ -191,7 +260,7 @@ void NumberRows::split_at(std::string_view line, char delimiter) {
     fields_.push_back(field);
     begin = i + 1;
   }
-  while (!fields_.empty() && fields_.back().empty()) fields_.pop_back();
+  drop_empty_end();
 }
 
 std::optional<double> NumberRows::number(std::size_t i) const {

@@ -55,8 +55,11 @@ class NumberRows {
 
   std::string_view next_line();
   Commas meaning_of_commas(std::string_view line);
+  bool is_delimited(std::string_view line) const;
   void split(std::string_view line, bool at_commas);
   void split_at(std::string_view line, char delimiter);
+  void drop_empty_end();
+  void require_equal_columns();
   [[noreturn]] void refuse_commas(const std::string& what) const;
 
   TextCursor text_;
@@ -68,7 +71,10 @@ class NumberRows {
   std::vector<std::string_view> fields_;
   char delimiter_ = 0;  // between the names of columns, if that is no blank
   Commas commas_ = Commas::unknown;
-  bool points_ = false;          // a decimal point, or an exponent, was somewhere
+  std::size_t dropped_ = 0;                    // empty fields at the end of the line
+  std::size_t columns_ = 0;                    // of the first line
+  std::string_view first_line_, ragged_line_;  // and the first one with another number of fields
+  bool points_ = false;                        // a decimal point, or an exponent, was somewhere
   std::string_view whole_line_;  // the first line of whole numbers between commas, and its fields
   std::size_t whole_fields_ = 0;
 };

@@ -7,14 +7,20 @@
 
 #include "base/monitor.hpp"
 #include "io/formats.hpp"
+#include "io/lengths.hpp"
 #include "types/point_set.hpp"
 #include "types/triangle_mesh.hpp"
 
 namespace ballflow::geometry {
 
+/// What becomes of points that find_strays names.
+enum class StrayPolicy { keep, drop };
+
 struct ReadOptions {
-  /// A gzipped file that unpacks to more bytes is refused.
-  std::int64_t max_unpacked_bytes = std::int64_t{2} << 30;
+  std::int64_t max_unpacked_bytes = std::int64_t{2} << 30;  // a packed file that unpacks to more is refused
+  double scale = 1;                                         // of all coordinates; positive and finite
+  Tolerance weld;                                           // see weld(); 0: equal vertices only
+  StrayPolicy strays = StrayPolicy::keep;
 };
 
 /// A model without repeated vertices. With faces, points.points and mesh.vertices are the same array; a
@@ -24,6 +30,8 @@ struct MeshFile {
   PointSet points;
   // What the file had and this model has not.
   std::int64_t welded_vertices = 0;  // equal to an earlier vertex
+  std::int64_t near_vertices = 0;    // within the tolerance of an earlier vertex, and not equal
+  std::int64_t stray_vertices = 0;   // left out as strays
   std::int64_t unused_vertices = 0;  // in no face of a file that has faces
   // Triangles with a repeated vertex, polygons of fewer than three corners.
   std::int64_t degenerate_faces = 0;
@@ -52,6 +60,9 @@ struct MeshFile {
 /// ones too; only what crosses itself however it is seen is a fan all the same.
 /// - Of faces with the same corners, whichever way round, one stays, or none where they close nothing: a wall
 /// in a solid that is there twice cancels.
+/// - Coordinates are multiplied by options.scale first, so all lengths are in the resulting units.
+/// - Where the mesh is open and its gaps are small, a warning names the tolerance that closes them; where a
+/// few points stretch the bounding box by an order of magnitude or more, one names them.
 /// - Exactly equal vertices are welded, the first one stays; -0 becomes 0. Degenerate and repeated triangles
 /// and, where
 ///   there are faces, vertices in no face are dropped. All are counted, and reported by monitor.warn.
@@ -66,6 +77,7 @@ MeshFile read_mesh_file(const std::string& path, const ReadOptions& options = {}
                         Monitor& monitor = no_monitor());
 
 /// The same for content in memory.
-MeshFile parse_mesh(std::string_view content, MeshFormat format, Monitor& monitor = no_monitor());
+MeshFile parse_mesh(std::string_view content, MeshFormat format, const ReadOptions& options = {},
+                    Monitor& monitor = no_monitor());
 
 }  // namespace ballflow::geometry

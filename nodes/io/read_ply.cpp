@@ -44,6 +44,12 @@ class AsciiValues {
     return token_.find_first_not_of(std::string_view("\x1a\0", 2)) == std::string_view::npos;
   }
   std::string rest() const { return excerpt(token_); }
+  /// An element may go on in the next line, but what follows on its last line would be taken for the next
+  /// one: where a number is missing, all later ones would be read out of step, perhaps to the end.
+  void end_element() {
+    token_ = text_.token_on_line();
+    if (!token_.empty()) throw Unreadable{excerpt(token_) + " follows on its line" + place()};
+  }
   /// The place of the last value.
   std::string place() const { return text_.place_of(token_); }
 
@@ -97,6 +103,7 @@ class BinaryValues {
     return remaining() <= 2 && std::all_of(at_, end_, [](char c) { return c == '\n' || c == '\r'; });
   }
   std::string rest() const { return std::to_string(remaining()) + " bytes"; }
+  void end_element() {}
   static std::string place() { return {}; }
 
  private:
@@ -174,6 +181,7 @@ class BodyParser {
         }
         try {
           read(element, i);
+          values_.end_element();
         } catch (const Unreadable& unreadable) {
           throw InputError(element.name + " " + std::to_string(i) + " of " + std::to_string(element.count) +
                                ": " + unreadable.what,

@@ -42,6 +42,13 @@ RawModel parse_binary(std::string_view content, Monitor& monitor) {
                          " bytes, fewer than the header of a binary one",
                      "is it an STL file? A text file begins with \"solid\"");
   }
+  if (content.substr(0, 1024).find('\0') == std::string_view::npos && layout->facets > layout->fitting) {
+    TextCursor text(content);
+    const std::string_view word = text.token();
+    throw InputError("the STL file is a text that begins with " + excerpt(word) + text.place_of(word) +
+                         " where \"solid\" should be",
+                     "is it an STL file? Its extension says so");
+  }
   std::int64_t facets = layout->facets;
   // Programs that write while they count leave 0 or the largest number.
   const bool unknown = facets == 0 || facets == std::numeric_limits<std::uint32_t>::max();

@@ -249,7 +249,10 @@ LabelledPoles label_poles(const PoleSet& poles, const TriangleMesh& mesh, const 
     throw InputError(
         "no pole is inside the mesh (" + uncertain + " are near the middle between inside and outside)" +
             (closed ? std::string() : "; " + why_not_closed(winding.chain(), mesh)),
-        "use the mesh of the solid that was sampled; an open sheet has no inside: close it first");
+        closed ? "the samples are too few for a ball to lie inside: sample the surface more densely, for "
+                 "example with "
+                 "mode=surface of Sample, or use the mesh of the solid that was sampled"
+               : "use the mesh of the solid that was sampled; an open sheet has no inside: close it first");
   }
   if (!closed && options.method == LabelMethod::automatic) {
     monitor.warn(why_not_closed(winding.chain(), mesh) +

@@ -39,6 +39,11 @@ struct LoadBalls {
         .scheme("balls:")
         .required()
         .doc("a file, or the balls themselves: \"balls:0 0 0 1; 1.5 0 0 1\"");
+    d.param("scale", &LoadBalls::options, &LoadBallsOptions::scale)
+        .doc(
+            "of centres and radii: a factor, or the unit of the lengths in the file, which become metres "
+            "(um, mm, "
+            "cm, dm, m, km, mil, in, ft, yd)");
   }
 
   void run(RunContext& context) {

@@ -10,6 +10,7 @@ namespace ballflow::nodes {
 using geometry::SampleMode;
 using geometry::SampleOptions;
 using geometry::Spread;
+using geometry::StrayPolicy;
 
 struct Sample {
   Out<geometry::PointSet> points;
@@ -40,6 +41,24 @@ struct Sample {
         .scheme("shape:")
         .required()
         .doc("a model file, or shape:NAME for a generated one (shape:torus?R=1&r=0.3&n=20000; see Shape)");
+    d.param("scale", &Sample::options, &SampleOptions::scale)
+        .doc(
+            "of all coordinates: a factor, or the unit of the lengths in the file, which become metres (um, "
+            "mm, cm, "
+            "dm, m, km, mil, in, ft, yd)");
+    d.param("weld", &Sample::options, &SampleOptions::weld)
+        .doc(
+            "vertices of the file this near to each other become one: a length in model units (after "
+            "scaling), or a "
+            "share of the longest edge of the bounding box (0.01%); 0: only equal ones. A warning names the "
+            "tolerance that closes an open mesh whose gaps are small");
+    d.choice("strays", &Sample::options, &SampleOptions::strays,
+             {{StrayPolicy::keep, "keep", "they stay, and a warning names them"},
+              {StrayPolicy::drop, "drop", "they are left out, with a warning"}})
+        .doc(
+            "the few points of the file (at most a hundredth) that stretch the bounding box tenfold or more, "
+            "and no "
+            "triangle joins with the others");
     d.choice("mode", &Sample::options, &SampleOptions::mode,
              {{SampleMode::vertices, "vertices", "the vertices of the model, in the order of the file"},
               {SampleMode::surface, "surface", "count points on the faces"}})
@@ -62,6 +81,8 @@ struct Sample {
     points = std::move(model.points);
     points.summary("welded", model.welded_vertices);
     points.summary("unused", model.unused_vertices);
+    if (model.near_vertices != 0) points.summary("near", model.near_vertices);
+    if (model.stray_vertices != 0) points.summary("strays", model.stray_vertices);
     mesh.summary("degenerate_faces", model.degenerate_faces);
     mesh.summary("repeated_faces", model.repeated_faces);
     if (model.cancelled_faces != 0) mesh.summary("cancelled_faces", model.cancelled_faces);

@@ -182,6 +182,17 @@ TEST(file_kinds, a_file_out_of_step_names_the_line_that_is_too_short) {
       replaced(ply, " ", "\n").replace(0, ply.find("end_header"), ply.substr(0, ply.find("end_header")))));
 }
 
+TEST(file_kinds, a_number_that_is_missing_does_not_move_those_after_it) {
+  // The first face would take the 4 of the next line, and that would be a triangle.
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float "
+      "z\nelement face 2\n"
+      "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n4 0 1 2\n4 3 2 "
+      "1 0\n";
+  EXPECT_TRUE(has(read("a.ply", ply).refusal,
+                  {"\"3\" follows on its line", "the line of face 0 has too few values (line 15)"}));
+}
+
 // ---- OBJ
 
 TEST(file_kinds, obj_lines_of_every_kind_may_be_continued) {
@@ -320,6 +331,7 @@ TEST(file_kinds, decimal_commas_never_become_other_coordinates) {
     EXPECT_TRUE(has(reading.warnings, {"decimal commas"}));
   }
   for (const char* text : {"0,0,0\n1.5,0,0\n0,-2.25,0\n0,0,3\n", "0, 0, 0\n1.5, 0, 0\n0, -2.25, 0\n0, 0, 3\n",
+                           "0.0,0.0, 0.0\n1.5,0.0, 0.0\n0.0, -2.25,0.0\n0.0 ,0.0,3.0\n",
                            "0,0,0 9 9 9\n1.5,0,0 9 9 9\n0,-2.25,0 9 9 9\n0,0,3 9 9 9\n",
                            "x,y,z\n0,0,0\n1.5,0,0\n0,-2.25,0\n0,0,3\n",
                            "0,0,0,0,0,9\n1.5,0,0,0,0,9\n0,-2.25,0,0,0,9\n0,0,3,0,0,9\n"}) {
@@ -332,8 +344,9 @@ TEST(file_kinds, decimal_commas_never_become_other_coordinates) {
       {"1,5000,0,0000,0,0000\n0,0000,0,0000,0,0000\n0,0000,1,0000,0,0000\n0,0000,0,0000,1,0000\n",
        {"may separate or be decimal", "line 1", "decimal points"}},
       {"x,y,z\n0,0,0,0,0,0\n1,5,0,0,0,0\n", {"6 whole numbers between commas for 3 columns", "line 2"}},
-      {"0,0,0\n1,5,0,0\n", {"4 whole numbers", "in an earlier line 3", "line 2"}},
+      {"0,0,0\n1,5,0,0\n", {"has 4 of them and the first one 3 (line 1)", "(line 2)"}},
       {"1.234,5 0,1 0,2\n", {"or thousands", "line 1"}},
+      {"1.234,5, 0,1, 0,2\n", {"or thousands", "line 1"}},
       {"0,0 0,0 0,0\n1,5,0\n", {"in another", "line 2"}},
       {"0,0,0\n1,5 0,0 0,0\n", {"in another", "line 2"}},
       {"1,,3,4\n", {"y is missing", "line 1"}},

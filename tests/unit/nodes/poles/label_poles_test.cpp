@@ -394,6 +394,17 @@ TEST(label_poles, of_an_open_sheet_are_refused) {
   EXPECT_NE(why.find("the mesh is open"), std::string::npos) << why;
 }
 
+TEST(label_poles, of_a_closed_mesh_with_too_few_samples_say_so) {
+  // The circumscribed ball of four vertices of a cube's corner has its centre outside.
+  const std::vector<geometry::Vec3> corner = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const std::vector<geometry::Triangle> sides = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  geometry::PointSet points;
+  points.points = corner;
+  const std::string why = refusal(voronoi_poles(points, {}), geometry::TriangleMesh{corner, sides});
+  EXPECT_NE(why.find("the samples are too few"), std::string::npos) << why;
+  EXPECT_EQ(why.find("open"), std::string::npos) << why;
+}
+
 TEST(label_poles, of_a_mesh_without_triangles_are_refused) {
   const PoleSet poles = voronoi_poles(test::cube().points(), {});
   EXPECT_NE(refusal(poles, {}, LabelMethod::mesh).find("no triangles"), std::string::npos);

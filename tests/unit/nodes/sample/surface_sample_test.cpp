@@ -109,6 +109,21 @@ TEST(sample, takes_shapes_by_name_and_files_by_path) {
   options.file = folder.file("a.ply");
   EXPECT_EQ(sample(options, 0).points.points, test::small_mesh().vertices);
 
+  options.scale = "0.5";
+  for (const std::string& file : {folder.file("a.ply"), std::string("shape:torus?n=500")}) {
+    SampleOptions whole = options;
+    whole.scale = "1";
+    whole.file = options.file = file;
+    const MeshFile half = sample(options, 0), model = sample(whole, 0);
+    ASSERT_EQ(half.points.points.size(), model.points.points.size());
+    for (std::size_t i = 0; i < half.points.points.size(); ++i) {
+      ASSERT_EQ(half.points.points[i], 0.5 * model.points.points[i]);
+      ASSERT_EQ(half.mesh.vertices[i], half.points.points[i]);
+    }
+  }
+  options.scale = "1";
+  options.file = folder.file("a.ply");
+
   options.mode = SampleMode::surface;
   options.count = 100;
   const MeshFile surface = sample(options, 0);
