@@ -65,7 +65,7 @@ ModelReport look_at_file(const std::string& path, geometry::Monitor& monitor) {
     std::error_code ignored;
     report.bytes = fs::file_size(path, ignored);
     report.format = words_of(format, report.bytes, content.view().size());
-    report.model = geometry::parse_mesh(content.view(), format, reading);
+    report.model = geometry::parse_mesh(content.view(), format, {}, reading);
   }
   report.look = geometry::look_at(report.model, {}, looking);
   std::tie(report.units, report.units_reason) = guess_units(report.format, report.look.box.longest_edge());
