@@ -43,7 +43,10 @@ TEST_F(ReportCli, is_a_page_of_the_latest_run_with_the_command_that_repeats_it) 
   EXPECT_NE(shown.find("Unions of Balls"), std::string::npos) << "the sources of the nodes";
   const auto balls = report.at("outputs").at("balls").at("summary").at("count").get<int>();
   EXPECT_NE(shown.find("<td class=\"number\">" + std::to_string(balls) + "</td>"), std::string::npos);
-  EXPECT_NE(shown.find("<figcaption>balls</figcaption><img alt=\"balls\" src=\"data:image/png;base64,iVBOR"),
+  EXPECT_NE(shown.find("<strong>balls</strong>: " + std::to_string(balls) +
+                       " balls</figcaption><img alt=\"balls\" src=\"data:image/png;base64,iVBOR"),
+            std::string::npos);
+  EXPECT_NE(shown.find("<ul class=\"facts\"><li>" + std::to_string(balls) + " balls chosen"),
             std::string::npos);
   const std::string plain = page({"--pictures", "0"});
   EXPECT_EQ(plain.find("<img"), std::string::npos);

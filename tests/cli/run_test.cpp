@@ -110,6 +110,21 @@ TEST_F(CliTest, swapping_the_strategy_reruns_only_the_pruning_and_what_follows) 
   EXPECT_GE(report().at("nodes").at("prune/rounds").at("iterations").get<int>(), 1);
 }
 
+TEST_F(CliTest, a_run_ends_with_what_matters_and_where_to_look) {
+  const ProcessResult result = run({"--set", small});
+  const std::size_t facts = result.out.find(" MB at most");
+  ASSERT_NE(facts, std::string::npos) << result.out;
+  const std::string last = result.out.substr(facts);
+  EXPECT_NE(last.find(" balls chosen"), std::string::npos) << result.out;
+  EXPECT_NE(last.find("topology kept: 1 component, 1 tunnel, no cavity"), std::string::npos) << result.out;
+  const std::size_t more = last.find("more: ballflow report ");
+  ASSERT_NE(more, std::string::npos) << result.out;
+  const std::string id = last.substr(more + 22, last.find(',', more) - more - 22);
+  EXPECT_EQ(ballflow({"compare", id}).exit_code, 0) << id;
+  // A run that leaves no record names no place where there is none.
+  EXPECT_EQ(run({"--set", small, "--no-cache"}).out.find("more:"), std::string::npos);
+}
+
 TEST_F(CliTest, a_cover_as_small_as_its_bound_is_called_the_fewest_possible) {
   EXPECT_NE(run({"--set", small}).out.find("balls chosen, the fewest possible"), std::string::npos);
   const ProcessResult greedy = run({"--set", small, "--set", "strategy=greedy"});

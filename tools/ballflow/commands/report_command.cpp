@@ -6,8 +6,11 @@
 #include "ballflow/text.hpp"
 #include "commands/commands.hpp"
 #include "commands/watched.hpp"
+#include "report/output_cards.hpp"
 #include "report/report_page.hpp"
 #include "show/picture/picture.hpp"
+#include "terminal/facts.hpp"
+#include "terminal/terminal.hpp"
 
 namespace ballflow::cli {
 namespace {
@@ -19,7 +22,8 @@ struct ReportArguments {
 
 /// Of the outputs that can be drawn, in the order of the variants, as long as the cache has them.
 void draw_outputs(report::ReportInput& input, Store& store, std::size_t most, geometry::Monitor& monitor) {
-  for (const auto& [name, output] : input.run.report.at("outputs").items()) {
+  for (const std::string& name : report::outputs_in_order(input.run.report)) {
+    const nlohmann::json& output = input.run.report.at("outputs").at(name);
     const auto digest = Digest::from_hex(output.at("digest").get<std::string>());
     if (!digest || !show::can_be_shown(output.at("type").get<std::string>())) continue;
     if (input.pictures.size() >= most) {
@@ -34,9 +38,22 @@ void draw_outputs(report::ReportInput& input, Store& store, std::size_t most, ge
     const std::vector<show::Layer> layers = show::layers_of(*artifact);
     if (std::none_of(layers.begin(), layers.end(), [](const show::Layer& l) { return l.visible; })) continue;
     show::PictureOptions options;
-    options.width = 880, options.height = 660;
+    options.width = 1216, options.height = 760;
     input.pictures.push_back({name, show::png(show::draw(layers, options, monitor))});
   }
+}
+
+/// The outputs that a report names.
+NamedOutputs outputs_of(const nlohmann::json& report) {
+  NamedOutputs outputs;
+  for (const auto& [name, output] : report.at("outputs").items()) {
+    OutputEntry entry;
+    entry.port = name;
+    entry.type = output.value("type", "");
+    entry.summary = output.value("summary", nlohmann::json::object()).dump();
+    outputs.emplace_back(name, std::move(entry));
+  }
+  return outputs;
 }
 
 int write(const Common& common, const ReportArguments& arguments) {
@@ -47,6 +64,11 @@ int write(const Common& common, const ReportArguments& arguments) {
   input.run = named_run(common, *store, arguments.run);
   input.manifests = run_manifests(*store, input.run.id);
   input.registry = registry.get();
+  const NamedOutputs outputs = outputs_of(input.run.report);
+  for (const auto& [name, output] : outputs) input.words[name] = describe(output);
+  const Json params(input.run.report.value("params", nlohmann::json::object()));
+  if (!input.run.report.contains("variants")) input.facts = key_facts(outputs, params);
+  input.remedy = [params](const std::string& warning) { return remedy_for(warning, params); };
   watched("no page was written",
           [&](geometry::Monitor& monitor) { draw_outputs(input, *store, arguments.pictures, monitor); });
   write_atomically(arguments.path, report::report_page(input));

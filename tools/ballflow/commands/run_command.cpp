@@ -20,6 +20,7 @@
 #include "export/export.hpp"
 #include "report/compare.hpp"
 #include "terminal/event_lines.hpp"
+#include "terminal/facts.hpp"
 #include "terminal/terminal.hpp"
 
 namespace ballflow::cli {
@@ -100,6 +101,25 @@ void print_result(const Dag& dag, const RunResult& result) {
   std::printf("\n");
   print_table(rows);
   print_totals(result);
+}
+
+/// What matters of a run that went well, and where there is more.
+void print_facts(const Dag& dag, const RunResult& result, const Json& report, const std::string& id,
+                 bool recorded) {
+  NamedOutputs outputs;
+  for (const DagOutput& output : dag.outputs) {
+    for (const OutputEntry& entry : result.nodes[output.from.node].outputs) {
+      if (entry.port == output.from.port) outputs.emplace_back(output.name, entry);
+    }
+  }
+  const std::vector<std::string> facts = key_facts(outputs, report.at("params"));
+  std::size_t warnings = 0;
+  for (const NodeResult& node : result.nodes) warnings += node.warnings.size();
+  if (facts.empty() && warnings == 0) return;
+  std::printf("\n");
+  for (const std::string& fact : facts) std::printf("%s\n", printable(fact).c_str());
+  if (warnings > 0) std::printf("%zu warning%s\n", warnings, warnings == 1 ? "" : "s");
+  if (recorded) std::printf("more: ballflow report %s, ballflow view %s\n", id.c_str(), id.c_str());
 }
 
 /// The table of "ballflow compare", or its beginning.
@@ -237,7 +257,7 @@ int run(const Common& common, const RunArguments& arguments) {
   Json report = run_report(id, dag, result);
   report["version"] = BALLFLOW_VERSION;
   report["command"] = "ballflow run " + arguments.graph.words() + arguments.settings.words();
-  save_run(*store, id, manifests_of(dag, result), report);
+  const bool recorded = save_run(*store, id, manifests_of(dag, result), report);
   std::vector<std::string> records;  // written beside the outputs
   const auto record = [&](const char* what, const std::string& path, const auto& text) {
     if (path.empty()) return;
@@ -286,6 +306,7 @@ int run(const Common& common, const RunArguments& arguments) {
                   printable(file.what).c_str());
     }
     for (const std::string& line : records) std::printf("%s\n", printable(line).c_str());
+    if (dag.variants.empty() && result.status == ExitCode::ok) print_facts(dag, result, report, id, recorded);
   }
   for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
     if (result.nodes[i].status != NodeStatus::failed) continue;

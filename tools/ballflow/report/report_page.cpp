@@ -11,6 +11,7 @@
 #include "report/compare.hpp"
 #include "report/html.hpp"
 #include "report/member.hpp"
+#include "report/output_cards.hpp"
 #include "report/plot.hpp"
 #include "report/result_plots.hpp"
 #include "report/style.hpp"
@@ -152,19 +153,33 @@ std::string nodes_table(const Value& report, const Manifests& manifests) {
   return out + "</tbody></table></div>\n";
 }
 
-std::string troubles(const Value& report) {
-  std::string out;
+/// Errors first, then warnings, each with what to do on a line of its own where that is said.
+std::string troubles(const ReportInput& input) {
+  const Value& report = input.run.report;
+  std::string errors, warnings;
+  const auto item = [](const char* kind, const std::string& path, const std::string& cause,
+                       const std::string& remedy) {
+    return "<li class=\"" + std::string(kind) + "\"><code>" + escaped(path) + "</code> " + escaped(cause) +
+           (remedy.empty() ? "" : "<br><strong>What to do:</strong> " + escaped(remedy)) + "</li>\n";
+  };
   for (const auto& [path, node] : member(report, "nodes").items()) {
     for (const Value& warning : member(node, "warnings")) {
-      out += "<li><code>" + escaped(path) + "</code>: " + escaped(shown(warning)) + "</li>\n";
+      const std::string text = shown(warning);
+      warnings += item("warning", path, text, input.remedy ? input.remedy(text) : "");
     }
     const Value& error = member(node, "error");
     if (!error.is_object()) continue;
-    out += "<li class=\"error\"><code>" + escaped(path) +
-           "</code>: " + escaped(shown(member(error, "cause"))) + "<br>" +
-           escaped(shown(member(error, "hint"))) + "</li>\n";
+    const Value& hint = member(error, "hint");
+    errors +=
+        item("error", path, shown(member(error, "cause")), hint.is_string() ? hint.get<std::string>() : "");
   }
-  return out.empty() ? "" : "<ul>" + out + "</ul>\n";
+  return errors.empty() && warnings.empty() ? "" : "<ul class=\"troubles\">" + errors + warnings + "</ul>\n";
+}
+
+std::string facts(const std::vector<std::string>& facts) {
+  std::string out;
+  for (const std::string& fact : facts) out += "<li>" + escaped(fact) + "</li>\n";
+  return out.empty() ? "" : "<ul class=\"facts\">" + out + "</ul>\n";
 }
 
 // ---- how to run it again
@@ -234,7 +249,9 @@ std::string bibliography(const ReportInput& input) {
 std::string pictures(const ReportInput& input) {
   std::string out;
   for (const Picture& picture : input.pictures) {
-    out += "<figure><figcaption>" + escaped(picture.title) + "</figcaption><img alt=\"" +
+    const auto words = input.words.find(picture.title);
+    out += "<figure><figcaption><strong>" + escaped(picture.title) + "</strong>" +
+           (words == input.words.end() ? "" : ": " + escaped(words->second)) + "</figcaption><img alt=\"" +
            escaped(picture.title) + "\" src=\"data:image/png;base64," + show::base64(picture.png) +
            "\"></figure>\n";
   }
@@ -269,10 +286,15 @@ std::string report_page(const ReportInput& input) {
           number(std::ceil(number_of(member(report, "peak_rss_bytes")) / 1e6)) + " MB at most";
   const Value& variants = member(report, "variants");
   if (variants.is_array() && !variants.empty()) page += ", " + number(double(variants.size())) + " variants";
-  page += ".</p></header>\n";
-  page += section("Warnings and errors", troubles(report));
-  page += section("Results",
-                  table_of(table) + "<details><summary>all fields</summary>" + table_of(all) + "</details>");
+  page += ".</p>\n" + facts(input.facts) + "</header>\n";
+  page += section("Warnings and errors", troubles(input));
+  const std::string cards = output_cards(input);
+  if (!cards.empty()) {
+    page += section("Results", cards);
+  } else {
+    page += section(
+        "Results", table_of(table) + "<details><summary>all fields</summary>" + table_of(all) + "</details>");
+  }
   page += section("Plots", result_plots(report, all));
   page += section("Pictures", pictures(input));
   page += section("Time", times(report));

@@ -7,6 +7,7 @@
 #include "ballflow/error.hpp"
 #include "report/bibliography.hpp"
 #include "report/html.hpp"
+#include "report/output_cards.hpp"
 #include "report/plot.hpp"
 #include "report/report_page.hpp"
 
@@ -243,6 +244,65 @@ TEST(report_page, encodes_pictures_of_any_length) {
     input.pictures = {{"p", bytes}};
     EXPECT_NE(report_page(input).find(code), std::string::npos) << code;
   }
+}
+
+ReportInput single_run() {
+  ReportInput input;
+  input.run.report = nlohmann::json::parse(R"({"run": "r", "graph": "g", "status": "ok", "params": {},
+    "nodes": {"a": {"type": "T", "warnings": ["too thin"], "params": {}, "outputs": {}}},
+    "outputs": {
+      "anything": {"type": "acme.Grid", "digest": "0123456789abcdef", "summary": {"cells": 3}},
+      "balls": {"type": "Balls", "digest": "00", "summary":
+        {"count": 1286, "bbox": [[0, 0, 0], [1, 2.5, 4]], "max_radius": 0.25, "nothing": null}},
+      "cover": {"type": "CoverState", "digest": "00", "summary": {"chosen": 5, "b1": 1, "b2": 1, "b3": 1, "b4": 1,
+        "b5": 1, "b6": 1, "b7": 1, "b8": 1, "b9": 1, "b10": 1}}}})");
+  input.words = {{"balls", "1 286 balls"}};
+  input.facts = {"1 286 balls <chosen>"};
+  input.remedy = [](const std::string& warning) { return warning == "too thin" ? "sample it <better>" : ""; };
+  return input;
+}
+
+TEST(report_page, of_one_run_has_a_short_table_for_every_output) {
+  const std::string page = report_page(single_run());
+  EXPECT_TRUE(well_formed(page));
+  EXPECT_EQ(count(page, "<article>"), 3u);
+  EXPECT_NE(page.find("<th>size</th><td class=\"number\">1 x 2.5 x 4</td>"), std::string::npos);
+  EXPECT_NE(page.find("<th>max radius</th><td class=\"number\">0.25</td>"), std::string::npos);
+  EXPECT_EQ(page.find("<th>nothing</th>"), std::string::npos) << "what is not known takes no room";
+  EXPECT_NE(page.find("<p>1 286 balls</p>"), std::string::npos);
+  EXPECT_NE(page.find("ballflow export 0123456789ab FILE"), std::string::npos);
+  EXPECT_NE(page.find("<summary>3 more</summary>"), std::string::npos) << "8 of 11 fields are shown at once";
+  // What people look for first stands first.
+  EXPECT_LT(page.find("<h3>cover"), page.find("<h3>balls"));
+  EXPECT_LT(page.find("<h3>balls"), page.find("<h3>anything"));
+}
+
+TEST(report_page, of_one_run_begins_with_what_matters_and_with_warnings_and_their_remedies) {
+  const std::string page = report_page(single_run());
+  const std::size_t facts = page.find("<li>1 286 balls &lt;chosen&gt;</li>"),
+                    warning = page.find(
+                        "<code>a</code> too thin<br><strong>What to do:</strong> sample it &lt;better&gt;"),
+                    results = page.find("<h2>Results</h2>");
+  ASSERT_NE(facts, std::string::npos);
+  ASSERT_NE(warning, std::string::npos);
+  EXPECT_LT(facts, warning);
+  EXPECT_LT(warning, results);
+}
+
+TEST(report_page, orders_outputs_by_type_and_fields_as_their_type_declares_them) {
+  EXPECT_EQ(outputs_in_order(single_run().run.report),
+            (std::vector<std::string>{"cover", "balls", "anything"}));
+  Registry registry;
+  TypeDeclaration type;
+  type.id = "Balls";
+  type.summary = {{"max_radius", "the <largest>"}, {"count", "how many"}};
+  registry.add(type);
+  ReportInput input = single_run();
+  input.registry = &registry;
+  const std::string page = report_page(input);
+  EXPECT_TRUE(well_formed(page));
+  EXPECT_LT(page.find("<th>max radius</th>"), page.find("<th>count</th>"));
+  EXPECT_NE(page.find("title=\"the &lt;largest&gt;\""), std::string::npos);
 }
 
 ReportInput sweep() {

@@ -1,0 +1,81 @@
+#include "terminal/facts.hpp"
+
+#include <gtest/gtest.h>
+
+namespace ballflow::cli {
+namespace {
+
+NamedOutputs outputs(const std::vector<std::array<std::string, 3>>& named) {
+  NamedOutputs result;
+  for (const auto& [name, type, summary] : named) {
+    OutputEntry entry;
+    entry.port = name;
+    entry.type = type;
+    entry.summary = summary;
+    result.emplace_back(name, entry);
+  }
+  return result;
+}
+
+const std::array<std::string, 3> cover = {
+    "cover", "CoverState", R"({"remaining": 0, "chosen": 286, "lower_bound": 265, "gap": 0.0792})"};
+const std::array<std::string, 3> balls = {"balls", "Balls", R"({"count": 286})"};
+const std::array<std::string, 3> kept = {"topology", "TopologyTable",
+                                         R"({"words": "1 component", "changes": 0})"};
+const std::array<std::string, 3> changed = {"topology", "TopologyTable",
+                                            R"({"words": "pruning opened 9 tunnels", "changes": 1})"};
+
+TEST(key_facts, are_the_balls_and_the_topology) {
+  const auto facts = key_facts(outputs({balls, kept, cover}), Json::object());
+  ASSERT_EQ(facts.size(), 2u);
+  EXPECT_EQ(facts[0], "286 balls chosen, at least 265 needed, gap 7.92 %");
+  EXPECT_EQ(facts[1], "topology kept: 1 component");
+}
+
+TEST(key_facts, say_what_to_do_about_a_changed_topology) {
+  const auto facts = key_facts(outputs({changed}), Json{{"repair", "none"}});
+  ASSERT_EQ(facts.size(), 1u);
+  EXPECT_NE(facts[0].find("CHANGED: pruning opened 9 tunnels; --set repair=topology"), std::string::npos)
+      << facts[0];
+  // A graph without that parameter, or with repair, has no such remedy.
+  EXPECT_EQ(key_facts(outputs({changed}), Json::object())[0], "topology CHANGED: pruning opened 9 tunnels");
+  EXPECT_EQ(key_facts(outputs({changed}), Json{{"repair", "topology"}})[0],
+            "topology CHANGED: pruning opened 9 tunnels");
+}
+
+TEST(key_facts, say_when_samples_are_left_uncovered) {
+  const auto facts = key_facts(
+      outputs({{"check", "CoverCheck", R"({"covered": 48483, "samples": 48485})"}, cover}), Json::object());
+  ASSERT_EQ(facts.size(), 2u);
+  EXPECT_EQ(facts[1], "NOT every sample is covered: 48 483 of 48 485 samples covered");
+  EXPECT_EQ(
+      key_facts(outputs({{"check", "CoverCheck", R"({"covered": 5, "samples": 5})"}, cover}), Json::object())
+          .size(),
+      1u);
+}
+
+TEST(key_facts, are_three_at_most_and_none_for_foreign_types_and_broken_summaries) {
+  const std::array<std::string, 3> mass = {"measure", "MassProperties",
+                                           R"({"volume": 0.523598, "area": 3.14159})"};
+  EXPECT_EQ(key_facts(outputs({mass}), Json::object()),
+            (std::vector<std::string>{"volume 0.5236, area 3.142"}));
+  const std::array<std::string, 3> growth = {"search", "Bisection", R"({"value": 0.25, "tried": 7})"};
+  const auto facts = key_facts(outputs({mass, growth, cover, kept}), Json::object());
+  ASSERT_EQ(facts.size(), 3u);
+  EXPECT_EQ(facts[2], "growth 0.25 after 7 trials");
+  EXPECT_TRUE(key_facts(outputs({{"x", "acme.Grid", R"({"cells": 3})"}}), Json::object()).empty());
+  EXPECT_TRUE(key_facts(outputs({{"x", "CoverState", R"({"chosen": "many"})"}}), Json::object()).empty());
+  EXPECT_TRUE(key_facts(outputs({{"x", "TopologyTable", "not JSON"}}), Json::object()).empty());
+}
+
+TEST(remedy, is_about_the_first_step_that_changed_the_topology) {
+  const Json params = {{"repair", "none"}, {"epsilon", 0.3}};
+  EXPECT_NE(remedy_for("the union of inner balls closed 2 tunnels", params).find("ballflow look"),
+            std::string::npos);
+  EXPECT_NE(remedy_for("growing closed 1 tunnel", params).find("epsilon"), std::string::npos);
+  EXPECT_EQ(remedy_for("growing closed 1 tunnel", Json::object()), "");
+  EXPECT_EQ(remedy_for("12 vertices equal earlier ones and are welded to it", params), "");
+}
+
+}  // namespace
+}  // namespace ballflow::cli

@@ -1,0 +1,127 @@
+#include "terminal/facts.hpp"
+
+#include <cstdio>
+
+#include "terminal/terminal.hpp"
+
+namespace ballflow::cli {
+namespace {
+
+constexpr std::size_t most_facts = 3;
+
+std::string short_number(const Json& value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value.get<double>());
+  return text;
+}
+
+class Facts {
+ public:
+  Facts(const NamedOutputs& outputs, const Json& params) : outputs_(outputs), params_(params) {}
+
+  std::vector<std::string> find() {
+    balls();
+    topology();
+    coverage();
+    if (facts_.size() > most_facts) facts_.resize(most_facts);
+    others();
+    if (facts_.size() > most_facts) facts_.resize(most_facts);
+    return facts_;
+  }
+
+ private:
+  const OutputEntry* of_type(const std::string& type) const {
+    for (const auto& [name, output] : outputs_) {
+      if (output.type == type) return &output;
+    }
+    return nullptr;
+  }
+  static Json summary(const OutputEntry& output) { return Json::parse(output.summary, nullptr, false); }
+
+  void balls() {
+    if (const OutputEntry* const cover = of_type("CoverState")) {
+      if (summary(*cover).value("chosen", 0) > 0) {
+        facts_.push_back(describe(*cover));
+        return;
+      }
+    }
+    const OutputEntry* fallback = nullptr;
+    for (const auto& [name, output] : outputs_) {
+      if (output.type != "Balls") continue;
+      if (fallback == nullptr || name == "balls") fallback = &output;
+    }
+    if (fallback != nullptr) facts_.push_back(describe(*fallback));
+  }
+
+  void topology() {
+    for (const char* type : {"TopologyTable", "TopologyCheck"}) {
+      const OutputEntry* const output = of_type(type);
+      if (output == nullptr) continue;
+      const Json s = summary(*output);
+      const std::string words = s.value("words", "");
+      if (words.empty() || words == "unknown") continue;
+      if (!s.contains("changes") || !s.at("changes").is_number()) {
+        facts_.push_back("topology: " + words);
+      } else if (s.at("changes") == 0) {
+        facts_.push_back("topology kept: " + words);
+      } else {
+        const std::string remedy = remedy_for(words, params_);
+        facts_.push_back("topology CHANGED: " + words + (remedy.empty() ? "" : "; " + remedy));
+      }
+      return;
+    }
+  }
+
+  void coverage() {
+    const OutputEntry* const check = of_type("CoverCheck");
+    if (check == nullptr) return;
+    const Json s = summary(*check);
+    if (s.contains("covered") && s.contains("samples") && s.at("covered") != s.at("samples"))
+      facts_.push_back("NOT every sample is covered: " + describe(*check));
+  }
+
+  void others() {
+    for (const char* type : {"Comparison", "MinkowskiReport", "Bisection"}) {
+      if (const OutputEntry* const output = of_type(type)) facts_.push_back(describe(*output));
+    }
+    if (const OutputEntry* const mass = of_type("MassProperties")) {
+      const Json s = summary(*mass);
+      if (s.contains("volume") && s.at("volume").is_number() && s.contains("area") &&
+          s.at("area").is_number())
+        facts_.push_back("volume " + short_number(s.at("volume")) + ", area " + short_number(s.at("area")));
+    }
+    if (const OutputEntry* const axis = of_type("MedialAxis"))
+      facts_.push_back("medial axis: " + describe(*axis));
+  }
+
+  const NamedOutputs& outputs_;
+  const Json& params_;
+  std::vector<std::string> facts_;
+};
+
+}  // namespace
+
+std::string remedy_for(const std::string& warning, const Json& params) {
+  const auto says = [&](const char* words) { return warning.find(words) != std::string::npos; };
+  const bool change = says(" opened ") || says(" closed ") || says(" added ") || says(" joined or lost ");
+  if (!change || !params.is_object()) return "";
+  // The first step that changes something is the one to look at.
+  if (says("the union of inner balls"))
+    return "the samples are too far apart for a wall or a slot: \"ballflow look FILE\" says where";
+  if (says("growing") && params.contains("epsilon"))
+    return "a smaller epsilon grows less, --set enlarge.mode=power_diagram only as far as the topology "
+           "allows";
+  if (says("pruning") && params.value("repair", "") == "none")
+    return "--set repair=topology returns the balls that pruning should have kept";
+  return "";
+}
+
+std::vector<std::string> key_facts(const NamedOutputs& outputs, const Json& params) {
+  try {
+    return Facts(outputs, params).find();
+  } catch (const Json::exception&) {  // another library's idea of a summary
+    return {};
+  }
+}
+
+}  // namespace ballflow::cli
