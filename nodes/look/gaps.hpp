@@ -1,12 +1,14 @@
-// Where a mesh is open, and the tolerance with which welding its vertices would close it.
+// Where a mesh is open, and what welding would close.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/monitor.hpp"
+#include "io/weld.hpp"
 #include "types/triangle_mesh.hpp"
 
 namespace ballflow::geometry {
@@ -23,14 +25,9 @@ struct Rim {
 std::vector<std::array<std::int32_t, 2>> open_edges(const TriangleMesh& mesh);
 
 struct Gaps {
-  std::int64_t open_edges = 0;  // of one triangle
-  std::vector<Rim> rims;        // the longest first
-  /// Welding vertices of open edges that are at most so far from each other closes all of these but `left`;
-  /// no smaller distance closes as many, and none up to a quarter of the median edge of the mesh closes more.
-  /// 0 when none closes any.
-  double weld = 0;
-  std::int64_t left = 0;
-  std::int64_t vanish = 0;  // triangles of which two corners become one by it
+  std::int64_t open_edges = 0;     // of one triangle
+  std::vector<Rim> rims;           // the longest first
+  std::optional<SmallGaps> small;  // what welding closes, where it closes at least half
 };
 
 /// Precondition: broken_invariant(mesh) is empty and no triangle repeats a vertex.

@@ -83,42 +83,12 @@ void look_inside(const SurfaceChain& chain, const LookOptions& options, Look& lo
 
 }  // namespace
 
-std::vector<std::int32_t> stray_points(std::span<const Vec3> points) {
-  std::vector<std::int32_t> stray;
-  if (points.empty()) return stray;
-  std::vector<double> x, y, z;
-  for (const Vec3& p : points) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
-  const Vec3 middle{middle_of(x), middle_of(y), middle_of(z)};
-  std::vector<double> distances;
-  for (const Vec3& p : points) distances.push_back(distance(p, middle));
-  std::vector<double> sorted = distances;
-  const auto most = sorted.begin() + static_cast<std::ptrdiff_t>((points.size() - 1) * 99 / 100);
-  std::nth_element(sorted.begin(), most, sorted.end());
-  const double limit = 3 * *most;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (distances[i] > limit) stray.push_back(static_cast<std::int32_t>(i));
-  }
-  return stray;
-}
-
 Look look_at(const MeshFile& model, const LookOptions& options, Monitor& monitor) {
   Look look;
   const auto points = model.points.points.span();
   look.box = bounding_box(points);
-  look.stray = stray_points(points);
-  if (!look.stray.empty()) {
-    Box others;
-    auto next = look.stray.begin();
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (next != look.stray.end() && at(*next) == i) {
-        ++next;
-      } else {
-        others.add(points[i]);
-      }
-    }
-    look.stretched = look.box.longest_edge() / others.longest_edge();
-  }
   const TriangleMesh& mesh = model.mesh;
+  look.strays = find_strays(points, mesh.triangles.span());
   if (mesh.triangles.empty()) {
     look.spacing = spacing_of(points, monitor);
     return look;

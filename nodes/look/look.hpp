@@ -8,6 +8,7 @@
 
 #include "base/monitor.hpp"
 #include "io/read_mesh.hpp"
+#include "io/strays.hpp"
 #include "look/gaps.hpp"
 #include "look/widths.hpp"
 #include "search/self_intersection.hpp"
@@ -30,10 +31,7 @@ struct LookOptions {
 struct Look {
   Box box;
   Spacing spacing;
-  /// Points so far away that the box is `stretched` times as long as that of all others; at most one in a
-  /// hundred. Indices of points, ascending.
-  std::vector<std::int32_t> stray;
-  double stretched = 1;
+  Strays strays;  // the few points that stretch the box tenfold or more
 
   // Of a mesh.
   MeshTopology topology;    // of the file's triangles
@@ -55,9 +53,5 @@ struct Look {
 
 /// Looks at a model in a time that grows nearly in proportion to its size.
 Look look_at(const MeshFile& model, const LookOptions& options = {}, Monitor& monitor = no_monitor());
-
-/// The points that stretch the bounding box, as above: those farther than three times as far from the median
-/// of the coordinates as 99 in 100 points are. None when they are more than one in a hundred.
-std::vector<std::int32_t> stray_points(std::span<const Vec3> points);
 
 }  // namespace ballflow::geometry

@@ -18,6 +18,9 @@ std::string place(Vec3 p) {
   return "(" + short_number(p.x) + ", " + short_number(p.y) + ", " + short_number(p.z) + ")";
 }
 
+/// The node of medial_axis.json that reads the model.
+const std::string sample_node = "dmt/sample";
+
 /// Collects findings and the options that follow from them.
 class Adviser {
  public:
@@ -25,7 +28,7 @@ class Adviser {
 
   void run() {
     predict();
-    if (!look_.stray.empty()) stray();
+    if (!look_.strays.points.empty()) stray();
     if (!report_.model.mesh.triangles.empty()) {
       open();
       connected();
@@ -59,14 +62,16 @@ class Adviser {
   }
 
   void stray() {
+    const geometry::Strays& strays = look_.strays;
     std::string places;
-    for (std::size_t i = 0; i < std::min<std::size_t>(look_.stray.size(), 3); ++i)
-      places +=
-          (i == 0 ? "" : ", ") + place(report_.model.points.points[static_cast<std::size_t>(look_.stray[i])]);
-    say(counted(static_cast<std::int64_t>(look_.stray.size()), "point lies", "points lie") +
-            " far away from all others and make the model " + short_number(look_.stretched) +
-            " times as large: " + places,
-        "leave them out of the file: sizes in % of the bounding box mean nothing with them");
+    for (std::size_t i = 0; i < std::min<std::size_t>(strays.points.size(), 3); ++i)
+      places += (i == 0 ? "" : ", ") +
+                place(report_.model.points.points[static_cast<std::size_t>(strays.points[i])]);
+    options_.push_back(sample_node + ".strays=drop");
+    say(counted(static_cast<std::int64_t>(strays.points.size()), "point lies", "points lie") + " " +
+            short_number(strays.nearest / strays.diagonal) +
+            " times as far away as the others are large: " + places,
+        "leave what is no part of the shape out: --set " + options_.back());
   }
 
   void open() {
@@ -78,14 +83,18 @@ class Adviser {
                              counted(static_cast<std::int64_t>(gaps.rims.size()), "rim", "rims") +
                              ", the longest with " + counted(rim.edges, "edge", "edges") + " and " +
                              short_number(rim.size) + " wide around " + place(rim.middle);
-    if (gaps.weld > 0 && gaps.left == 0) {
-      say(what, "welding vertices that are at most " + short_number(gaps.weld) + " apart closes all of it");
-    } else if (gaps.weld > 0 && 2 * gaps.left < gaps.open_edges) {
-      say(what, "welding vertices that are at most " + short_number(gaps.weld) + " apart closes all but " +
-                    counted(gaps.left, "edge", "edges") + "; the holes that are left have to be filled");
-    } else {
+    if (!gaps.small) {
       say(what, "no welding closes it: fill the holes, or expect poles near them to be labelled by a vote");
+      return;
     }
+    options_.push_back(sample_node + ".weld=" + short_number(gaps.small->tolerance));
+    say(what, "weld vertices that are nearly equal: --set " + options_.back() +
+                  (gaps.small->left == 0 ? " closes all of it"
+                                         : " closes all but " + counted(gaps.small->left, "edge", "edges") +
+                                               "; the holes that are left have to be filled") +
+                  (report_.welded && report_.welded->betti
+                       ? ", and gives a solid with " + geometry::describe(*report_.welded->betti)
+                       : std::string()));
   }
 
   void connected() {
@@ -107,7 +116,9 @@ class Adviser {
   }
 
   void crossing() {
-    const geometry::SelfIntersections& found = look_.intersections;
+    // Flanks of cracks cross each other; what welding mends is no second finding.
+    const geometry::SelfIntersections& found =
+        report_.welded ? report_.welded->intersections : look_.intersections;
     if (!found.flat.empty()) {
       say(counted(static_cast<std::int64_t>(found.flat.size()), "triangle has", "triangles have") +
               " three different corners and no area",

@@ -67,9 +67,15 @@ Json mesh(const ModelReport& report) {
   json["gaps"] = {{"open_edges", look.gaps.open_edges},
                   {"rims", look.gaps.rims.size()},
                   {"longest", std::move(rims)},
-                  {"weld", look.gaps.weld == 0 ? Json(nullptr) : Json(look.gaps.weld)},
-                  {"left", look.gaps.left},
-                  {"vanishing_triangles", look.gaps.vanish}};
+                  {"weld", nullptr}};
+  if (const auto& small = look.gaps.small) {
+    json["gaps"]["weld"] = {
+        {"tolerance", small->tolerance}, {"left", small->left}, {"widest", small->widest}};
+    if (report.welded) {
+      json["gaps"]["weld"]["closed"] = report.welded->closed;
+      json["gaps"]["weld"]["betti"] = report.welded->betti ? Json(*report.welded->betti) : Json(nullptr);
+    }
+  }
   json["solid"] = {{"betti", look.betti ? Json(*look.betti) : Json(nullptr)},
                    {"unknown_because", look.unknown_because}};
   if (look.shells) {
@@ -111,9 +117,10 @@ Json json_of(const ModelReport& report) {
       {"unit", {{"guess", report.units}, {"reason", report.units_reason}}},
       {"spacing", {{"median", look.spacing.median}, {"largest", look.spacing.largest}}},
       {"stray_points",
-       {{"count", look.stray.size()},
-        {"stretched", look.stretched},
-        {"first", first(look.stray, most_places)}}},
+       {{"count", look.strays.points.size()},
+        {"nearest", look.strays.nearest},
+        {"diagonal", look.strays.diagonal},
+        {"first", first(look.strays.points, most_places)}}},
       {"reading", report.read},
       {"run", {{"samples", report.samples}, {"labels", report.labels}, {"reason", report.labels_reason}}},
       {"findings", std::move(findings)},

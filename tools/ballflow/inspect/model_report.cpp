@@ -57,17 +57,24 @@ ModelReport look_at_file(const std::string& path, geometry::Monitor& monitor) {
   ModelReport report;
   report.path = path;
   Listener listener(monitor, report.read);
-  geometry::PartMonitor reading(listener, 0, 0.3), looking(listener, 0.3, 1);
-  {
-    const geometry::FileContent content =
-        geometry::read_file_content(path, geometry::ReadOptions().max_unpacked_bytes);
-    const geometry::MeshFormat format = geometry::format_of(path, content.view(), reading);
-    std::error_code ignored;
-    report.bytes = fs::file_size(path, ignored);
-    report.format = words_of(format, report.bytes, content.view().size());
-    report.model = geometry::parse_mesh(content.view(), format, {}, reading);
-  }
+  geometry::PartMonitor reading(listener, 0, 0.3), looking(listener, 0.3, 0.9);
+  const geometry::FileContent content =
+      geometry::read_file_content(path, geometry::ReadOptions().max_unpacked_bytes);
+  const geometry::MeshFormat format = geometry::format_of(path, content.view(), reading);
+  std::error_code ignored;
+  report.bytes = fs::file_size(path, ignored);
+  report.format = words_of(format, report.bytes, content.view().size());
+  report.model = geometry::parse_mesh(content.view(), format, {}, reading);
   report.look = geometry::look_at(report.model, {}, looking);
+  if (const auto& gaps = report.look.gaps.small) {
+    geometry::ReadOptions options;
+    options.weld.value = gaps->tolerance;
+    geometry::PartMonitor again(monitor, 0.9, 1);
+    std::vector<std::string> known;
+    Listener quiet(again, known);
+    report.welded =
+        geometry::look_at(geometry::parse_mesh(content.view(), format, options, quiet), {}, quiet);
+  }
   std::tie(report.units, report.units_reason) = guess_units(report.format, report.look.box.longest_edge());
   advise(report);
   return report;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct ModelReport {
   std::uint64_t bytes = 0;   // of the file
   geometry::MeshFile model;
   geometry::Look look;
+  std::optional<geometry::Look>
+      welded;                     // where welding closes most of the gaps: the model read with that tolerance
   std::vector<std::string> read;  // what reading it changed or left out, in words
   std::string units, units_reason;
 

@@ -94,7 +94,7 @@ std::vector<show::Layer> layers_of(const ModelReport& report) {
       marks.add("crossing",
                 mesh.vertices[static_cast<std::size_t>(mesh.triangles[static_cast<std::size_t>(t)][0])], 0.5);
   }
-  for (const std::int32_t i : look.stray)
+  for (const std::int32_t i : look.strays.points)
     marks.add("stray point", report.model.points.points[static_cast<std::size_t>(i)]);
   if (!marks.empty()) layers.push_back(marks.layer());
   return layers;

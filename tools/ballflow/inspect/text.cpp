@@ -155,13 +155,14 @@ std::string text_of(const ModelReport& report) {
         text += (i == 0 ? ": " : ", ") + counted(rim.edges, "edge", "edges") + " around " + place(rim.middle);
       }
       out.line("gaps", text);
-      text = look.gaps.weld == 0 ? "closes none of them"
-                                 : short_number(look.gaps.weld) + " closes " +
-                                       grouped(look.gaps.open_edges - look.gaps.left) + " of " +
-                                       grouped(look.gaps.open_edges) + " open edges";
-      if (look.gaps.vanish > 0)
-        text += "; " + counted(look.gaps.vanish, "triangle vanishes", "triangles vanish") + " by it";
-      out.line("welding", text);
+      if (const auto& small = look.gaps.small) {
+        text = short_number(small->tolerance) + " closes " + grouped(look.gaps.open_edges - small->left) +
+               " of " + grouped(look.gaps.open_edges) + " open edges";
+        if (report.welded) text += "; then it is " + surface(*report.welded);
+        if (report.welded && report.welded->betti)
+          text += ", with " + geometry::describe(*report.welded->betti);
+        out.line("welding", text);
+      }
     }
     if (look.betti) {
       out.line("solid", geometry::describe(*look.betti) + "; volume " + short_number(look.shells->volume()) +
