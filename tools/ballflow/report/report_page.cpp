@@ -250,7 +250,7 @@ std::string pictures(const ReportInput& input) {
   std::string out;
   for (const Picture& picture : input.pictures) {
     const auto words = input.words.find(picture.title);
-    out += "<figure><figcaption><strong>" + escaped(picture.title) + "</strong>" +
+    out += "<figure class=\"picture\"><figcaption><strong>" + escaped(picture.title) + "</strong>" +
            (words == input.words.end() ? "" : ": " + escaped(words->second)) + "</figcaption><img alt=\"" +
            escaped(picture.title) + "\" src=\"data:image/png;base64," + show::base64(picture.png) +
            "\"></figure>\n";

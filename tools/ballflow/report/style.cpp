@@ -21,7 +21,8 @@ th, td { padding: .25rem .9rem .25rem 0; text-align: left; vertical-align: top; 
 th { font-weight: 600; color: var(--soft); white-space: nowrap; }
 .number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 pre { background: var(--panel); padding: .8rem 1rem; border-radius: 6px; overflow-x: auto; font-size: .85rem; }
-figure { margin: .6rem 0 1.6rem; }
+figure { display: inline-block; vertical-align: top; width: 36rem; max-width: 100%; margin: .6rem 1rem 1rem 0; }
+figure.picture { display: block; width: auto; margin: .6rem 0 1.6rem; }
 figcaption { font-size: .9rem; margin-bottom: .3rem; }
 img { width: 100%; height: auto; border: 1px solid var(--line); border-radius: 6px; background: #fff; }
 .plot { width: 100%; height: auto; font-size: 12px; }

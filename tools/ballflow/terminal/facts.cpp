@@ -63,7 +63,11 @@ class Facts {
       if (!s.contains("changes") || !s.at("changes").is_number()) {
         facts_.push_back("topology: " + words);
       } else if (s.at("changes") == 0) {
-        facts_.push_back("topology kept: " + words);
+        // Nothing was lost on the way; whether it began with the topology of the solid is another question.
+        const bool unknown = s.contains("surface") && s.at("surface").is_null();
+        facts_.push_back((unknown ? "topology kept from the inner balls on, that of a solid is not known: "
+                                  : "topology kept: ") +
+                         words);
       } else {
         const std::string remedy = remedy_for(words, params_);
         facts_.push_back("topology CHANGED: " + words + (remedy.empty() ? "" : "; " + remedy));
@@ -103,6 +107,8 @@ class Facts {
 
 std::string remedy_for(const std::string& warning, const Json& params) {
   const auto says = [&](const char* words) { return warning.find(words) != std::string::npos; };
+  if (says("the mesh is open") || says("topology of the solid is unknown"))
+    return "\"ballflow look FILE\" says what is wrong with the surface, where, and what closes it";
   const bool change = says(" opened ") || says(" closed ") || says(" added ") || says(" joined or lost ");
   if (!change || !params.is_object()) return "";
   // The first step that changes something is the one to look at.

@@ -19,7 +19,8 @@ using NamedOutputs = std::vector<std::pair<std::string, OutputEntry>>;
 /// other types.
 std::vector<std::string> key_facts(const NamedOutputs& outputs, const Json& params);
 
-/// What to do about a warning that says how the topology changed; empty for other warnings.
+/// What to do about a warning that says how the topology changed, or that the surface bounds no solid; empty
+/// for others.
 std::string remedy_for(const std::string& warning, const Json& params);
 
 }  // namespace ballflow::cli

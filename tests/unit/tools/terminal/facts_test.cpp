@@ -43,6 +43,17 @@ TEST(key_facts, say_what_to_do_about_a_changed_topology) {
             "topology CHANGED: pruning opened 9 tunnels");
 }
 
+TEST(key_facts, do_not_call_the_topology_kept_that_nobody_knows) {
+  const auto facts = key_facts(
+      outputs({{"t", "TopologyTable", R"({"words": "1 component", "changes": 0, "surface": null})"}}),
+      Json::object());
+  ASSERT_EQ(facts.size(), 1u);
+  EXPECT_NE(facts[0].find("that of a solid is not known"), std::string::npos) << facts[0];
+  EXPECT_NE(
+      remedy_for("the topology of the solid is unknown: the surface is open", Json::object()).find("look"),
+      std::string::npos);
+}
+
 TEST(key_facts, say_when_samples_are_left_uncovered) {
   const auto facts = key_facts(
       outputs({{"check", "CoverCheck", R"({"covered": 48483, "samples": 48485})"}, cover}), Json::object());
