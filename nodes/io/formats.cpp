@@ -43,12 +43,6 @@ constexpr std::array extensions = {Extension{"", std::nullopt},          Extensi
                                    Extension{".pts", MeshFormat::xyz},   Extension{".pwn", MeshFormat::xyz},
                                    Extension{".csv", MeshFormat::xyz},   Extension{".asc", MeshFormat::xyz}};
 
-std::string lower_extension(std::filesystem::path path) {
-  std::string text = lower(path.extension().string());
-  if (text == ".gz" || text == ".zst") text = lower(path.stem().extension().string());
-  return text;
-}
-
 struct OtherFormat {
   std::string_view start, word;  // how it begins, and what comes near the beginning
   const char* name;
@@ -134,6 +128,20 @@ MeshFormat likely_format(std::string_view content) {
 const char* name_of(MeshFormat format) {
   static constexpr std::array names = {"OFF", "OBJ", "PLY", "STL", "points as text"};
   return names[static_cast<std::size_t>(format)];
+}
+
+std::string lower_extension(const std::string& name) {
+  const std::filesystem::path path = name;
+  std::string text = lower(path.extension().string());
+  if (text == ".gz" || text == ".zst") text = lower(path.stem().extension().string());
+  return text;
+}
+
+bool is_model_name(const std::string& path) {
+  const std::string extension = lower_extension(path);
+  if (extension == ".ma" || extension == ".sph") return true;
+  return std::any_of(extensions.begin(), extensions.end(),
+                     [&](const Extension& one) { return one.format && one.name == extension; });
 }
 
 void refuse_other_formats(std::string_view content, const std::string& hint) {

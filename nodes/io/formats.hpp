@@ -19,6 +19,12 @@ extern const char* const readable_models;
 extern const char* const readable_balls;
 extern const char* const readable_covers;
 
+/// The extension in small letters (".off"), before .gz or .zst.
+std::string lower_extension(const std::string& path);
+
+/// Whether the extension is one of a model, or of balls (.ma, .sph), and of nothing else.
+bool is_model_name(const std::string& path);
+
 /// Throws InputError naming the format when the content is certainly of one that no reader knows: glTF, DAE,
 /// VTK, PCD, URDF and SRDF, STEP, DXF, FBX, Blender, LAS, E57, NumPy, Medit and Gmsh files, other XML and
 /// JSON, web pages, and pointers of Git LFS. `hint` lists what is readable.

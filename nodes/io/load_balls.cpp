@@ -13,6 +13,7 @@
 #include "io/formats.hpp"
 #include "io/lengths.hpp"
 #include "io/number_rows.hpp"
+#include "io/ply_header.hpp"
 #include "io/raw_model.hpp"
 #include "io/text_cursor.hpp"
 
@@ -193,6 +194,15 @@ LoadedBalls scaled(LoadedBalls loaded, double scale) {
 }
 
 }  // namespace
+
+bool holds_balls(const std::string& path, std::string_view content) {
+  const std::string extension = lower_extension(path);
+  if (extension == ".ma" || extension == ".sph") return true;
+  if (TextCursor(content).token() == "ply") return ply::has_radii(content);
+  NumberRows rows(content, 4, no_monitor());
+  return rows.read_names() && rows.column("x") && rows.column("y") && rows.column("z") &&
+         (rows.column("r") || rows.column("radius") || rows.column("diameter"));
+}
 
 bool is_ball_rows(std::string_view content) {
   TextCursor text(content, '#', row_separators);

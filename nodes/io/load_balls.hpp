@@ -50,6 +50,11 @@ LoadedBalls load_balls(const LoadBallsOptions& options, Monitor& monitor = no_mo
 /// The same for content in memory.
 LoadedBalls parse_balls(std::string_view content, Monitor& monitor = no_monitor());
 
+/// Whether a file is one of balls and not of a model: one called .ma or .sph (.gz or .zst may follow), PLY
+/// whose vertices have a radius or diameter and that has no faces, and rows under the names of columns x, y,
+/// z and r, radius or diameter. That is how the program itself writes balls.
+bool holds_balls(const std::string& path, std::string_view content);
+
 /// True when the content begins as rows do.
 bool is_ball_rows(std::string_view content);
 

@@ -251,4 +251,21 @@ std::size_t bytes(Scalar type) {
 
 Header parse_header(TextCursor& text) { return HeaderParser(text).parse(); }
 
+bool has_radii(std::string_view content) {
+  bool radii = false;
+  try {
+    TextCursor text(content);
+    for (const Element& element : parse_header(text).elements) {
+      if ((element.name == "face" || element.name == "tristrips") && element.count > 0) return false;
+      if (element.name != "vertex") continue;
+      for (const Property& property : element.properties) {
+        radii = radii || property.role == Role::radius || property.role == Role::diameter;
+      }
+    }
+  } catch (const InputError&) {
+    return false;
+  }
+  return radii;
+}
+
 }  // namespace ballflow::geometry::ply

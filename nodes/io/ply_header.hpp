@@ -46,4 +46,8 @@ struct Header {
 /// vertex_indices or vertex_index of whole numbers, or an element that is nearly called so.
 Header parse_header(TextCursor& text);
 
+/// Whether the content begins with a PLY header whose vertices have a radius or diameter, and that has no
+/// faces.
+bool has_radii(std::string_view content);
+
 }  // namespace ballflow::geometry::ply

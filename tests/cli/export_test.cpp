@@ -80,5 +80,32 @@ TEST_F(ExportTest, every_type_of_a_run_is_exported_to_the_last_bit_in_every_form
   EXPECT_EQ(test::count(check.out, "equal "), files) << check.out;
 }
 
+TEST_F(ExportTest, files_of_balls_are_balls_everywhere) {
+  const std::string out = folder.file("out");
+  const ProcessResult run =
+      ballflow({"run", "--quiet", test::source_file("graphs/balls.json"), "--set",
+                "file=balls:0 0 0 1; 1.5 0 0 0.5; 0 1.25 0 0.75", "--out", out, "--format", "balls=ply"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::string ply = out + "/balls.ply", csv = folder.file("balls.csv"),
+                    again = folder.file("again.ply");
+  const ProcessResult exported = ballflow({"export", ply, csv});
+  ASSERT_EQ(exported.exit_code, 0) << exported.err;
+  EXPECT_NE(exported.out.find("(Balls)"), std::string::npos) << exported.out;
+  EXPECT_EQ(test::read_file(csv), "x,y,z,r\n0,0,0,1\n1.5,0,0,0.5\n0,1.25,0,0.75\n");
+  ASSERT_EQ(ballflow({"export", csv, again}).exit_code, 0);
+  EXPECT_TRUE(test::read_file(again) == test::read_file(ply));
+  // A model is a mesh, or points.
+  test::write_file(folder.file("a.off"),
+                   "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  EXPECT_NE(ballflow({"export", folder.file("a.off"), folder.file("a.stl")}).out.find("(TriangleMesh)"),
+            std::string::npos);
+  test::write_file(folder.file("a.xyz"), "0 0 0\n1 0 0\n0 1 0\n0 0 1\n");
+  EXPECT_NE(ballflow({"export", folder.file("a.xyz"), folder.file("a.npy")}).out.find("(PointSet)"),
+            std::string::npos);
+  test::write_file(folder.file("bad.off"), "OFF\n4 4 0\n0 0 x\n");
+  const ProcessResult bad = ballflow({"export", folder.file("bad.off"), folder.file("b.stl")});
+  EXPECT_EQ(bad.exit_code, 2);
+}
+
 }  // namespace
 }  // namespace ballflow

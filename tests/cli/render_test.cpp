@@ -100,6 +100,20 @@ TEST_F(RenderTest, draws_artifacts_by_digest_and_models_by_name) {
   EXPECT_GT(drawn(picture(), 0, 120), 500);
 }
 
+TEST_F(RenderTest, draws_files_of_balls_as_balls) {
+  // Four points cover next to nothing, four balls a good part.
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
+  test::write_file(folder.file("balls.ply"),
+                   header + "property float radius\nend_header\n0 0 0 1\n2 0 0 1\n0 2 0 1\n0 0 2 1\n");
+  test::write_file(folder.file("points.ply"), header + "end_header\n0 0 0\n2 0 0\n0 2 0\n0 0 2\n");
+  ASSERT_EQ(render({folder.file("points.ply"), "--no-legend"}).exit_code, 0);
+  const int points = drawn(picture(), 0, 120);
+  ASSERT_EQ(render({folder.file("balls.ply"), "--no-legend"}).exit_code, 0);
+  EXPECT_GT(drawn(picture(), 0, 120), 1000);
+  EXPECT_LT(points, 500);
+}
+
 TEST_F(RenderTest, refuses_what_cannot_be_drawn_and_says_what_can) {
   run_medial_axis();
   const auto expect = [&](std::vector<std::string> arguments, const std::string& text) {

@@ -103,7 +103,8 @@ ArtifactPtr cached_artifact(const Store& store, const Digest& digest);
 RunRecord named_run(const Common& common, Store& store, const std::string& name,
                     const std::string& graph_file = {});
 
-/// A file, or the beginning of the digest of an artifact in the cache. Throws Error when it is neither.
+/// A file of an artifact, of a model or of balls (see model_file.hpp), or the beginning of the digest of an
+/// artifact in the cache. Throws Error when it is none of these.
 ArtifactPtr find_artifact(const Common& common, const std::string& name);
 
 /// A flag that becomes true at the first Ctrl-C or SIGTERM after this call; the second one ends the process.

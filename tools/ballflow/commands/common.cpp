@@ -9,6 +9,7 @@
 #include "ballflow/history.hpp"
 #include "ballflow/text.hpp"
 #include "commands/commands.hpp"
+#include "commands/model_file.hpp"
 
 namespace ballflow::cli {
 
@@ -97,7 +98,7 @@ ArtifactPtr find_artifact(const Common& common, const std::string& name) {
   std::error_code ignored;
   if (fs::is_regular_file(name, ignored)) {
     common.places->reads("an artifact", name);
-    return Artifact::map(name);
+    return is_model(name) ? artifact_of_model(name) : Artifact::map(name);
   }
   const bool hexadecimal = name.find_first_not_of("0123456789abcdef") == std::string::npos;
   if (hexadecimal && name.size() >= 6 && name.size() <= 64) {

@@ -40,7 +40,9 @@ void add_export(const Command& app, Common& common, Action& action) {
   const Command command =
       app.subcommand("export", "write an artifact in a usual format (ply, vtp, glb, npy, ...)");
   const auto arguments = std::make_shared<ExportArguments>();
-  command.option("artifact", arguments->artifact, "digest from a run report, or a file of the cache")
+  command
+      .option("artifact", arguments->artifact,
+              "digest from a run report, or a file: of the cache, of a model, or of balls")
       .required();
   command.option("file", arguments->path, "file to write").required();
   command.option("--format", arguments->format, "format; default: by the extension of the file");

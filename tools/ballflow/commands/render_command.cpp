@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cctype>
 #include <charconv>
 #include <cstdio>
 #include <filesystem>
@@ -13,8 +12,8 @@
 #include "ballflow/output_file.hpp"
 #include "ballflow/text.hpp"
 #include "commands/commands.hpp"
+#include "commands/model_file.hpp"
 #include "commands/watched.hpp"
-#include "sample/sample.hpp"
 #include "show/picture/number.hpp"
 #include "show/picture/picture.hpp"
 
@@ -62,26 +61,12 @@ class DrawingMonitor final : public geometry::Monitor {
   std::atomic<int> shown_ = -1;
 };
 
-bool is_model(const std::string& name) {
-  if (name.starts_with("shape:")) return true;
-  std::string lower = name;
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (lower.ends_with(".gz")) lower.resize(lower.size() - 3);
-  for (const char* ending : {".off", ".obj", ".ply", ".stl", ".xyz", ".pts", ".pwn"}) {
-    if (lower.ends_with(ending)) return true;
-  }
-  return false;
-}
-
-Source source_of_model(const std::string& name, geometry::Monitor& monitor) {
-  geometry::SampleOptions options;
-  options.file = name;
-  const geometry::MeshFile model = geometry::sample(options, 0, monitor);
+Source source_of_model(const std::string& name) {
   Source source;
   source.label =
       name.starts_with("shape:") ? name.substr(6, name.find('?') - 6) : fs::path(name).stem().string();
-  source.layers.push_back(model.mesh.triangles.empty() ? show::layer_of(model.points)
-                                                       : show::layer_of(model.mesh));
+  source.artifact = artifact_of_model(name);
+  source.layers = show::layers_of(*source.artifact);
   return source;
 }
 
@@ -112,15 +97,14 @@ void add_run(const Common& common, std::vector<Source>& sources, Store& store, c
   }
 }
 
-std::vector<Source> find_sources(const Common& common, const std::vector<std::string>& names,
-                                 geometry::Monitor& monitor) {
+std::vector<Source> find_sources(const Common& common, const std::vector<std::string>& names) {
   const auto store = common.store();
   std::vector<Source> sources;
   for (const std::string& name : names) {
     const std::size_t before = sources.size();
     if (is_model(name)) {
       if (!name.starts_with("shape:")) common.places->reads("a model", name);
-      sources.push_back(source_of_model(name, monitor));
+      sources.push_back(source_of_model(name));
     } else if (is_run(*store, name)) {
       add_run(common, sources, *store, name);
     } else {
@@ -286,8 +270,8 @@ int render(const Common& common, const RenderArguments& arguments) {
 
   common.store();
   common.places->writes("--output", arguments.output);
-  watched("no picture was written", [&](geometry::Monitor& monitor) {
-    std::vector<Source> sources = find_sources(common, arguments.names, monitor);
+  watched("no picture was written", [&](geometry::Monitor&) {
+    std::vector<Source> sources = find_sources(common, arguments.names);
     for (const std::string& text : arguments.colour_by) colour(sources, text);
     for (const std::string& text : arguments.opacity) set_opacity(sources, text);
     const std::vector<std::vector<show::Layer>> scenes = scenes_of(sources, arguments);
@@ -307,9 +291,10 @@ void add_render(const Command& app, Common& common, Action& action) {
   const Command command = app.subcommand("render", "draw artifacts, runs and models into a PNG file");
   const auto arguments = std::make_shared<RenderArguments>();
   command
-      .option("source", arguments->names,
-              "digests or files of artifacts; runs (an id, latest, previous, a report file), of which the\n"
-              "outputs are drawn; model files (OFF, OBJ, PLY, STL, ...) and shapes (shape:torus)")
+      .option(
+          "source", arguments->names,
+          "digests or files of artifacts; runs (an id, latest, previous, a report file), of which the\n"
+          "outputs are drawn; files of models (OFF, OBJ, PLY, STL, ...) and of balls, shapes (shape:torus)")
       .required()
       .type_name("ARTIFACT|RUN|FILE...");
   command.option("-o,--output", arguments->output, "picture to write (.png)").required().type_name("FILE");

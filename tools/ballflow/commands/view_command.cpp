@@ -74,8 +74,8 @@ void add_view(const Command& app, Common& common, Action& action) {
   command
       .option("what", arguments->names,
               "runs: an id or the beginning of one (see \"ballflow runs\"), latest, previous, a report\n"
-              "file, or a folder with a report.json; artifacts: a digest from a report, or a file of\n"
-              "the cache; default: latest")
+              "file, or a folder with a report.json; artifacts: a digest from a report, a file of the\n"
+              "cache, or a file of a model or of balls (OFF, OBJ, PLY, ...); default: latest")
       .type_name("RUN|ARTIFACT...");
   command.option("-o,--output", arguments->output, "page to write; default: view.html")
       .type_name("PAGE.html");

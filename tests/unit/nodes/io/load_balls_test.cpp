@@ -235,6 +235,20 @@ TEST(load_balls, halves_diameters) {
             (Array<double>{1.5}));
 }
 
+TEST(load_balls, tells_files_of_balls_from_models) {
+  EXPECT_TRUE(holds_balls("a.ply", header_of_ply + "property float radius\nend_header\n0 0 0 3\n"));
+  EXPECT_TRUE(holds_balls("a", header_of_ply + "property float diameter\nend_header\n0 0 0 3\n"));
+  EXPECT_FALSE(holds_balls("a.ply", header_of_ply + "end_header\n0 0 0\n"));
+  EXPECT_FALSE(holds_balls("a.ply", header_of_ply + "property float radius\nelement face 1\n"
+                                                    "property list uchar int vertex_indices\nend_header\n"));
+  EXPECT_FALSE(holds_balls("a.ply", "ply\nbroken\n"));
+  EXPECT_TRUE(holds_balls("a.csv", "x,y,z,r\n0,0,0,1\n"));
+  EXPECT_FALSE(holds_balls("a.csv", "x,y,z,nx\n0,0,0,1\n"));
+  EXPECT_FALSE(holds_balls("a.xyz", "0 0 0 1\n"));
+  EXPECT_TRUE(holds_balls("A.MA.gz", "1 0 0\nv 0 0 0 1\n"));
+  EXPECT_TRUE(holds_balls("a.sph", "1\n0 0 0 1\n"));
+}
+
 TEST(load_balls, names_formats_that_are_not_read) {
   EXPECT_TRUE(names(refusal("{\"asset\": {\"version\": \"2.0\"}}"), {"a glTF model", "readable are ma"}));
   EXPECT_TRUE(names(refusal("<?xml version=\"1.0\"?>\n<robot name=\"arm\">"), {"URDF or SRDF"}));
