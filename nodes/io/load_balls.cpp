@@ -32,6 +32,9 @@ struct BallColumns {
   bool diameter = false, named = false;
 };
 
+/// Beside columns g and b, r is the red of a colour.
+bool has_colours(const NumberRows& rows) { return rows.column("g") && rows.column("b"); }
+
 BallColumns ball_columns(NumberRows& rows, Monitor& monitor) {
   BallColumns result;
   if (!rows.read_names()) return result;
@@ -39,7 +42,7 @@ BallColumns ball_columns(NumberRows& rows, Monitor& monitor) {
   static constexpr std::array<std::array<std::string_view, 2>, 4> names = {
       {{"x", "x"}, {"y", "y"}, {"z", "z"}, {"r", "radius"}}};
   for (std::size_t i = 0; i < 4; ++i) {
-    auto column = rows.column(names[i][0]);
+    auto column = i == 3 && has_colours(rows) ? std::nullopt : rows.column(names[i][0]);
     if (!column) column = rows.column(names[i][1]);
     if (!column && i == 3 && (column = rows.column("diameter"))) result.diameter = true;
     if (!column) {
@@ -201,7 +204,7 @@ bool holds_balls(const std::string& path, std::string_view content) {
   if (TextCursor(content).token() == "ply") return ply::has_radii(content);
   NumberRows rows(content, 4, no_monitor());
   return rows.read_names() && rows.column("x") && rows.column("y") && rows.column("z") &&
-         (rows.column("r") || rows.column("radius") || rows.column("diameter"));
+         ((rows.column("r") && !has_colours(rows)) || rows.column("radius") || rows.column("diameter"));
 }
 
 bool is_ball_rows(std::string_view content) {

@@ -112,6 +112,7 @@ class HeaderParser {
           properties += (properties.empty() ? "" : ", ");
           properties += property.list ? "list " : "";
           properties += excerpt(property.name);
+          if (property.list && is_float(property.type)) properties += " of floating-point numbers";
         }
         throw InputError(
             "the PLY header gives the element \"" + element.name +

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/file_content.hpp"
 #include "io/formats.hpp"
 #include "io/load_balls.hpp"
 #include "io/read_mesh.hpp"
@@ -248,6 +249,23 @@ TEST(file_kinds, obj_faces_may_name_normals_and_textures_that_are_not_there) {
   EXPECT_TRUE(has(read("a.obj", replaced(with, "//1 ", "//x ")).refusal, {"is not a corner", "(line "}));
 }
 
+TEST(file_kinds, an_obj_model_is_the_same_without_the_normals_that_its_faces_name) {
+  const std::string path = test::data_file("models/abc_00000801.obj.gz");
+  if (path.empty()) GTEST_SKIP() << "no test data";
+  const FileContent content = read_file_content(path, std::int64_t{1} << 30);
+  std::string without;
+  for (std::size_t at = 0, end = 0; at < content.view().size(); at = end) {
+    end = std::min(content.view().find('\n', at), content.view().size() - 1) + 1;
+    if (content.view().substr(at, 2) != "vn") without += content.view().substr(at, end - at);
+  }
+  const Reading with = read_path(path), stripped = read("a.obj", without);
+  EXPECT_TRUE(has(stripped.warnings, {"but the file has none"}));
+  EXPECT_FALSE(with.file.points.normals.empty());
+  EXPECT_EQ(stripped.file.points.points, with.file.points.points);
+  EXPECT_EQ(stripped.file.mesh.vertices, with.file.mesh.vertices);
+  EXPECT_EQ(stripped.file.mesh.triangles, with.file.mesh.triangles);
+}
+
 // ---- PLY
 
 TEST(file_kinds, ply_faces_without_corners_are_no_cloud) {
@@ -255,7 +273,8 @@ TEST(file_kinds, ply_faces_without_corners_are_no_cloud) {
   EXPECT_TRUE(
       has(read("a.ply", replaced(ply, "vertex_indices", "vertices_indices")).refusal,
           {"\"face\" no list vertex_indices or vertex_index of whole numbers", "list \"vertices_indices\""}));
-  EXPECT_TRUE(has(read("a.ply", replaced(ply, "uchar int", "uchar float")).refusal, {"of whole numbers"}));
+  EXPECT_TRUE(has(read("a.ply", replaced(ply, "uchar int", "uchar float")).refusal,
+                  {"of whole numbers", "\"vertex_indices\" of floating-point numbers"}));
   EXPECT_TRUE(has(read("a.ply", replaced(ply, "element face", "element faces")).refusal,
                   {"element \"faces\"", "call it face"}));
   EXPECT_TRUE(has(read("a.ply", replaced(ply, "element vertex", "element vertices")).refusal,

@@ -244,6 +244,9 @@ TEST(load_balls, tells_files_of_balls_from_models) {
   EXPECT_FALSE(holds_balls("a.ply", "ply\nbroken\n"));
   EXPECT_TRUE(holds_balls("a.csv", "x,y,z,r\n0,0,0,1\n"));
   EXPECT_FALSE(holds_balls("a.csv", "x,y,z,nx\n0,0,0,1\n"));
+  EXPECT_FALSE(holds_balls("a.csv", "x,y,z,r,g,b\n0,0,0,255,0,0\n")) << "a colour";
+  EXPECT_TRUE(names(refusal("x,y,z,r,g,b\n0,0,0,255,0,0\n"), {"none is called r or radius", "line 1"}));
+  EXPECT_TRUE(holds_balls("a.csv", "x,y,z,radius,r,g,b\n0,0,0,1,255,0,0\n"));
   EXPECT_FALSE(holds_balls("a.xyz", "0 0 0 1\n"));
   EXPECT_TRUE(holds_balls("A.MA.gz", "1 0 0\nv 0 0 0 1\n"));
   EXPECT_TRUE(holds_balls("a.sph", "1\n0 0 0 1\n"));
