@@ -83,6 +83,20 @@ void look_inside(const SurfaceChain& chain, const LookOptions& options, Look& lo
 
 }  // namespace
 
+Vec3 place_of(const TriangleMesh& mesh, const std::array<std::int32_t, 2>& pair) {
+  std::array<Box, 2> boxes;
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (const std::int32_t v : mesh.triangles[at(pair[i])]) boxes[i].add(mesh.vertices[at(v)]);
+  }
+  const auto& [a, b] = boxes;
+  const auto between = [](double low_a, double low_b, double high_a, double high_b) {
+    return (std::max(low_a, low_b) + std::min(high_a, high_b)) / 2;
+  };
+  return {between(a.lower.x, b.lower.x, a.upper.x, b.upper.x),
+          between(a.lower.y, b.lower.y, a.upper.y, b.upper.y),
+          between(a.lower.z, b.lower.z, a.upper.z, b.upper.z)};
+}
+
 Look look_at(const MeshFile& model, const LookOptions& options, Monitor& monitor) {
   Look look;
   const auto points = model.points.points.span();

@@ -1,6 +1,7 @@
 // What a model is, before anything is computed from it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -50,6 +51,9 @@ struct Look {
   std::optional<Betti> betti;   // of the solid, where the surface is an embedded manifold
   std::string unknown_because;  // else
 };
+
+/// Where two triangles meet, about: the middle of what their bounding boxes have in common.
+Vec3 place_of(const TriangleMesh& mesh, const std::array<std::int32_t, 2>& pair);
 
 /// Looks at a model in a time that grows nearly in proportion to its size.
 Look look_at(const MeshFile& model, const LookOptions& options = {}, Monitor& monitor = no_monitor());

@@ -32,7 +32,8 @@ int look_at(const Common& common, const LookArguments& arguments) {
   }
   if (arguments.picture.empty()) return 0;
   watched("no picture was written", [&](geometry::Monitor& monitor) {
-    write_atomically(arguments.picture, show::png(show::draw(inspect::layers_of(report), options, monitor)));
+    write_atomically(arguments.picture,
+                     show::png(show::draw(inspect::layers_of(report, monitor), options, monitor)));
   });
   std::fprintf(arguments.json ? stderr : stdout, "wrote %s\n", printable(arguments.picture).c_str());
   return 0;

@@ -110,7 +110,9 @@ class Adviser {
     if (!look_.orientable) {
       say("the surface is not orientable: it has only one side", "no inside can be told; cut it or close it");
     } else if (look_.turned > 0) {
-      say(counted(look_.turned, "triangle faces", "triangles face") + " another way than its neighbours",
+      say(counted(look_.turned, "triangle faces another way than its",
+                  "triangles face another way than their") +
+              " neighbours",
           "they are turned over for the labels; nothing has to be done");
     }
   }
@@ -128,26 +130,12 @@ class Adviser {
       say((found.all ? "" : "more than ") +
               counted(static_cast<std::int64_t>(found.pairs.size()), "pair of triangles crosses",
                       "pairs of triangles cross") +
-              ": the surface intersects itself, first at " + place(middle_of(found.pairs.front())),
+              ": the surface intersects itself, first at " +
+              place(geometry::place_of(report_.model.mesh, found.pairs.front())),
           look_.closed
               ? "inside is what it winds around at least once; the volume by formula counts overlaps twice"
               : "repair it where the mesh was made");
     }
-  }
-
-  Vec3 middle_of(const std::array<std::int32_t, 2>& pair) const {
-    geometry::Box boxes[2];
-    for (std::size_t i = 0; i < 2; ++i) {
-      for (const std::int32_t v : report_.model.mesh.triangles[static_cast<std::size_t>(pair[i])])
-        boxes[i].add(report_.model.mesh.vertices[static_cast<std::size_t>(v)]);
-    }
-    const auto between = [](double a, double b, double c, double d) {
-      return (std::max(a, b) + std::min(c, d)) / 2;
-    };
-    const auto& [a, b] = boxes;
-    return {between(a.lower.x, b.lower.x, a.upper.x, b.upper.x),
-            between(a.lower.y, b.lower.y, a.upper.y, b.upper.y),
-            between(a.lower.z, b.lower.z, a.upper.z, b.upper.z)};
   }
 
   void shells() {

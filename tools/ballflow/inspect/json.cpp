@@ -39,6 +39,11 @@ Json first(const std::vector<T>& values, std::size_t most) {
 
 Json mesh(const ModelReport& report) {
   const geometry::Look& look = report.look;
+  Json crossings = Json::array();
+  for (std::size_t i = 0; i < std::min(look.intersections.pairs.size(), most_places); ++i) {
+    const auto& pair = look.intersections.pairs[i];
+    crossings.push_back({{"triangles", pair}, {"place", point(geometry::place_of(report.model.mesh, pair))}});
+  }
   Json json = {
       {"closed", look.closed},
       {"manifold", look.topology.manifold},
@@ -57,7 +62,7 @@ Json mesh(const ModelReport& report) {
       {"self_intersections",
        {{"count", look.intersections.pairs.size()},
         {"all", look.intersections.all},
-        {"first", first(look.intersections.pairs, most_places)}}}};
+        {"first", std::move(crossings)}}}};
   Json rims = Json::array();
   for (std::size_t i = 0; i < std::min(look.gaps.rims.size(), most_places); ++i) {
     const geometry::Rim& rim = look.gaps.rims[i];

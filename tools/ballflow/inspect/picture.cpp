@@ -10,26 +10,32 @@ using geometry::Vec3;
 
 constexpr std::size_t most_crossings = 200;
 
-show::Layer surface(const ModelReport& report) {
-  const geometry::Look& look = report.look;
+/// The wall behind every triangle: the look measures only some of many.
+std::vector<double> walls_of(const geometry::Look& look, geometry::Monitor& monitor) {
+  if (!look.widths) return {};
+  const auto all = static_cast<std::int64_t>(look.outwards.triangles.size());
+  if (look.widths->places == all) return look.widths->walls;
+  geometry::WidthsOptions options;
+  options.places = all;
+  return geometry::widths_of(look.outwards, options, monitor).walls;
+}
+
+show::Layer surface(const ModelReport& report, geometry::Monitor& monitor) {
   show::Layer layer = show::layer_of(report.model.mesh);
   layer.opacity = 1;
   layer.smooth = false;
+  show::Attribute attribute{"wall", "model units", {}, false, walls_of(report.look, monitor)};
   std::vector<double> walls;
-  if (look.widths) {
-    for (const double wall : look.widths->walls) {
-      if (std::isfinite(wall)) walls.push_back(wall);
-    }
+  for (const double wall : attribute.values) {
+    if (std::isfinite(wall)) walls.push_back(wall);
   }
-  if (walls.empty()) return layer;
+  // Triangles of a chain are those of the mesh, in its order, as long as none repeats a corner.
+  if (walls.empty() || attribute.values.size() != layer.triangles.size()) return layer;
   // Half of the walls share the colour of the widest: the thin ones are what one looks for.
   const auto middle = walls.begin() + static_cast<std::ptrdiff_t>(walls.size() / 2);
   std::nth_element(walls.begin(), middle, walls.end());
   const double cap = *middle;
-  show::Attribute attribute{"wall", "model units", {}, false, look.widths->walls};
   for (double& value : attribute.values) value = std::min(value, cap);
-  // Triangles of a chain are those of the mesh, in its order, as long as none repeats a corner.
-  if (attribute.values.size() != layer.triangles.size()) return layer;
   layer.attributes.push_back(std::move(attribute));
   layer.colour_by = "wall";
   return layer;
@@ -76,23 +82,21 @@ class Marks {
 
 }  // namespace
 
-std::vector<show::Layer> layers_of(const ModelReport& report) {
+std::vector<show::Layer> layers_of(const ModelReport& report, geometry::Monitor& monitor) {
   const geometry::Look& look = report.look;
   const geometry::TriangleMesh& mesh = report.model.mesh;
   std::vector<show::Layer> layers;
   if (mesh.triangles.empty()) {
     layers.push_back(show::layer_of(report.model.points));
   } else {
-    layers.push_back(surface(report));
+    layers.push_back(surface(report, monitor));
     if (look.gaps.open_edges > 0) layers.push_back(rims(report));
   }
   Marks marks(look.box.longest_edge() / 80);
   if (look.widths && look.widths->wall) marks.add("thinnest wall", look.widths->wall->from);
   if (look.widths && look.widths->slot) marks.add("narrowest slot", look.widths->slot->from);
   for (std::size_t i = 0; i < std::min(look.intersections.pairs.size(), most_crossings); ++i) {
-    for (const std::int32_t t : look.intersections.pairs[i])
-      marks.add("crossing",
-                mesh.vertices[static_cast<std::size_t>(mesh.triangles[static_cast<std::size_t>(t)][0])], 0.5);
+    marks.add("crossing", geometry::place_of(mesh, look.intersections.pairs[i]), 0.5);
   }
   for (const std::int32_t i : look.strays.points)
     marks.add("stray point", report.model.points.points[static_cast<std::size_t>(i)]);

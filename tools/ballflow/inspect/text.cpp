@@ -10,7 +10,7 @@ namespace {
 
 using geometry::Vec3;
 
-constexpr std::size_t indent = 14;
+constexpr std::size_t names = 14;  // width of what stands before the text of a line
 constexpr std::size_t most_shells = 8, most_places = 3;
 
 std::string grouped(std::int64_t number) {
@@ -30,7 +30,8 @@ std::string place(Vec3 p) {
 /// Lines with a name before them, broken between words.
 class Lines {
  public:
-  void line(const std::string& name, const std::string& text, std::size_t width = 104) {
+  void line(const std::string& name, const std::string& text, std::size_t indent = names) {
+    constexpr std::size_t width = 104;
     const std::string whole = printable(text);
     std::string_view rest = whole;
     text_.append("  ").append(name);
@@ -72,9 +73,6 @@ std::string surface(const geometry::Look& look) {
 }
 
 std::string intersections(const geometry::SelfIntersections& found, const geometry::TriangleMesh& mesh) {
-  const auto corner = [&](std::int32_t t) {
-    return mesh.vertices[static_cast<std::size_t>(mesh.triangles[static_cast<std::size_t>(t)][0])];
-  };
   std::string text = found.pairs.empty()
                          ? "no triangles cross"
                          : (found.all ? "" : "more than ") +
@@ -82,8 +80,8 @@ std::string intersections(const geometry::SelfIntersections& found, const geomet
                                        "pair of triangles crosses", "pairs of triangles cross");
   for (std::size_t i = 0; i < std::min(found.pairs.size(), most_places); ++i) {
     const auto& [a, b] = found.pairs[i];
-    text +=
-        (i == 0 ? ": " : ", ") + std::to_string(a) + " and " + std::to_string(b) + " at " + place(corner(a));
+    text += (i == 0 ? ": " : ", ") + std::to_string(a) + " and " + std::to_string(b) + " at " +
+            place(geometry::place_of(mesh, found.pairs[i]));
   }
   if (!found.flat.empty()) {
     text += "; " + counted(static_cast<std::int64_t>(found.flat.size()), "triangle has", "triangles have") +
@@ -183,8 +181,8 @@ std::string text_of(const ModelReport& report) {
   out.line("labels", report.labels + ": " + report.labels_reason);
   if (!report.findings.empty()) out.heading("What matters");
   for (const Finding& finding : report.findings) {
-    out.line("-", finding.what);
-    out.line("", finding.remedy);
+    out.line("-", finding.what, 4);
+    out.line("", finding.remedy, 6);
   }
   out.heading("A command that suits it");
   out.plain("  " + report.command);

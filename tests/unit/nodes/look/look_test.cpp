@@ -71,6 +71,15 @@ TEST(look, says_why_the_solid_is_unknown) {
   EXPECT_NEAR(touching.shells->volume(), 1.0 / 3, 1e-15);
 }
 
+TEST(look, says_where_triangles_cross) {
+  // A triangle that is pierced at (0.25, 0.25, 0) by one that stands on a corner.
+  const MeshFile model =
+      off("OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n0.25 0.25 -1\n0.25 0.25 1\n0.26 0.26 1\n3 0 1 2\n3 3 4 5\n");
+  const Look look = look_at(model);
+  ASSERT_EQ(look.intersections.pairs.size(), 1u);
+  EXPECT_LT(distance(place_of(model.mesh, look.intersections.pairs[0]), {0.25, 0.25, 0}), 0.01);
+}
+
 TEST(look, at_points_finds_the_few_that_stretch_the_box) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
