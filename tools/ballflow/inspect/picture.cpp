@@ -10,13 +10,11 @@ using geometry::Vec3;
 
 constexpr std::size_t most_crossings = 200;
 
-/// The wall behind every triangle: the look measures only some of many.
 std::vector<double> walls_of(const geometry::Look& look, geometry::Monitor& monitor) {
   if (!look.widths) return {};
-  const auto all = static_cast<std::int64_t>(look.outwards.triangles.size());
-  if (look.widths->places == all) return look.widths->walls;
   geometry::WidthsOptions options;
-  options.places = all;
+  options.places = static_cast<std::int64_t>(look.outwards.triangles.size());
+  options.list_walls = true;
   return geometry::widths_of(look.outwards, options, monitor).walls;
 }
 

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 #include <vector>
 
 namespace ballflow::geometry {
@@ -40,7 +42,26 @@ TEST(widths, of_a_box_are_its_shortest_edge_and_no_slot) {
   EXPECT_FALSE(widths.slot);
   EXPECT_EQ(widths.places, 12);
   EXPECT_EQ(widths.thin_walls, 8) << "10 and 0.25 are below the diagonals of the faces, 20 is not";
-  EXPECT_EQ(widths.walls.size(), 12u);
+  EXPECT_TRUE(widths.walls.empty()) << "nobody asked";
+}
+
+TEST(widths, of_random_boxes_do_not_depend_on_where_searches_end) {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> place(0, 100), size(0.1, 6);
+  std::vector<Vec3> vertices;
+  std::vector<Triangle> triangles;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 lower{place(random), place(random), place(random)};
+    add_box(vertices, triangles, lower, lower + Vec3{size(random), size(random), size(random)});
+  }
+  WidthsOptions all;
+  all.list_walls = true;
+  const Widths a = widths_of({vertices, triangles}), b = widths_of({vertices, triangles}, all);
+  ASSERT_TRUE(a.wall && a.slot && b.wall && b.slot);
+  EXPECT_EQ(a.wall->triangle, b.wall->triangle);
+  EXPECT_EQ(a.slot->width, b.slot->width);
+  EXPECT_EQ(a.thin_walls, b.thin_walls);
+  EXPECT_EQ(a.narrow_slots, b.narrow_slots);
 }
 
 TEST(widths, between_two_boxes_is_a_slot) {
@@ -83,6 +104,17 @@ TEST(widths, of_a_torus_are_those_of_its_tube_and_its_hole) {
   EXPECT_NEAR(widths.wall->width, 2 * tube, 0.005);
   EXPECT_NEAR(widths.slot->width, 2 * (1 - tube), 0.005);
   EXPECT_EQ(widths.thin_walls, 0);
+  // Searches that end early find the same as those that go on.
+  WidthsOptions all;
+  all.list_walls = true;
+  const Widths listed = widths_of({vertices, triangles}, all);
+  EXPECT_EQ(listed.walls.size(), triangles.size());
+  EXPECT_EQ(listed.wall->width, widths.wall->width);
+  EXPECT_EQ(listed.wall->triangle, widths.wall->triangle);
+  EXPECT_EQ(listed.slot->width, widths.slot->width);
+  EXPECT_EQ(listed.thin_walls, widths.thin_walls);
+  EXPECT_EQ(listed.narrow_slots, widths.narrow_slots);
+  EXPECT_EQ(*std::min_element(listed.walls.begin(), listed.walls.end()), widths.wall->width);
   WidthsOptions few;
   few.places = 1000;
   const Widths sparse = widths_of({vertices, triangles}, few);
