@@ -94,6 +94,16 @@ TEST_F(ExportTest, files_of_balls_are_balls_everywhere) {
   EXPECT_EQ(test::read_file(csv), "x,y,z,r\n0,0,0,1\n1.5,0,0,0.5\n0,1.25,0,0.75\n");
   ASSERT_EQ(ballflow({"export", csv, again}).exit_code, 0);
   EXPECT_TRUE(test::read_file(again) == test::read_file(ply));
+  ASSERT_EQ(ballflow({"export", ply, csv, "--scale", "0.5"}).exit_code, 0);
+  EXPECT_EQ(test::read_file(csv), "x,y,z,r\n0,0,0,0.5\n0.75,0,0,0.25\n0,0.625,0,0.375\n");
+  ASSERT_EQ(ballflow({"export", ply, folder.file("balls.yaml"), "--scale", "mm"}).exit_code, 0);
+  EXPECT_NE(test::read_file(folder.file("balls.yaml")).find("center: [0.0015, 0, 0]\n      radius: 5e-04"),
+            std::string::npos)
+      << test::read_file(folder.file("balls.yaml"));
+  for (const auto& [file, scale] :
+       {std::pair("wrong.ply", "0"), std::pair("wrong.ply", "1.7e308"), std::pair("wrong.json", "mm")}) {
+    EXPECT_EQ(ballflow({"export", ply, folder.file(file), "--scale", scale}).exit_code, 2) << scale;
+  }
   // A model is a mesh, or points.
   test::write_file(folder.file("a.off"),
                    "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");

@@ -1,14 +1,20 @@
 #include <cstdio>
+#include <filesystem>
 
 #include "ballflow/text.hpp"
 #include "commands/commands.hpp"
+#include "commands/watched.hpp"
 #include "export/export.hpp"
+#include "export/scaled.hpp"
+#include "io/lengths.hpp"
 
 namespace ballflow::cli {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct ExportArguments {
-  std::string artifact, path, format;
+  std::string artifact, path, format, scale = "1";
 };
 
 std::string formats_help() {
@@ -29,7 +35,16 @@ int export_one(const Common& common, const ExportArguments& arguments) {
   const ArtifactPtr artifact = find_artifact(common, arguments.artifact);
   common.store();  // whose files are not written over, also where the artifact is a file
   common.places->writes("the exported file", arguments.path);
-  export_artifact(*artifact, arguments.path, arguments.format);
+  double factor = 1;
+  watched("nothing was written",
+          [&](geometry::Monitor&) { factor = geometry::parse_scale(arguments.scale); });
+  const std::string format =
+      arguments.format.empty() ? fs::path(arguments.path).extension().string() : arguments.format;
+  if (factor != 1 && (format.ends_with("json") || format.ends_with("safetensors"))) {
+    throw Error(ExitCode::usage, "--scale: json and safetensors hold the artifact as it is",
+                "choose another format");
+  }
+  export_artifact(factor == 1 ? *artifact : *scaled(artifact, factor), arguments.path, arguments.format);
   std::printf("wrote %s (%s)\n", printable(arguments.path).c_str(), artifact->type().c_str());
   return 0;
 }
@@ -46,6 +61,9 @@ void add_export(const Command& app, Common& common, Action& action) {
       .required();
   command.option("file", arguments->path, "file to write").required();
   command.option("--format", arguments->format, "format; default: by the extension of the file");
+  command.option(
+      "--scale", arguments->scale,
+      "of all lengths: a factor, or the unit that they have, which becomes metres (mm, cm, in, ...)");
   command.option("--cache", common.cache, "cache folder").type_name("DIR");
   command.footer(formats_help());
   command.callback([&common, &action, arguments] {
