@@ -18,9 +18,6 @@ std::string place(Vec3 p) {
   return "(" + short_number(p.x) + ", " + short_number(p.y) + ", " + short_number(p.z) + ")";
 }
 
-/// The node of medial_axis.json that reads the model.
-const std::string sample_node = "dmt/sample";
-
 /// Collects findings and the options that follow from them.
 class Adviser {
  public:
@@ -28,6 +25,7 @@ class Adviser {
 
   void run() {
     predict();
+    extent();
     if (!look_.strays.points.empty()) stray();
     if (!report_.model.mesh.triangles.empty()) {
       open();
@@ -59,6 +57,16 @@ class Adviser {
       report_.labels_reason =
           "the surface is not closed: the generalized winding number tells inside from outside";
     }
+  }
+
+  /// Beyond these sizes areas and volumes are no numbers that doubles can hold or tell from 0.
+  void extent() {
+    const double size = look_.box.longest_edge();
+    if (size >= 1e-40 && size <= 1e40) return;
+    options_.push_back(sample_node + ".scale=" + short_number(1 / size));
+    say("the model is " + short_number(size) +
+            " long: areas, volumes and widths are not what they are said to be",
+        "read it in a unit in which it has an ordinary size: --set " + options_.back());
   }
 
   void stray() {
@@ -204,6 +212,8 @@ class Adviser {
 };
 
 }  // namespace
+
+const std::string sample_node = "dmt/sample";
 
 void advise(ModelReport& report) { Adviser(report).run(); }
 

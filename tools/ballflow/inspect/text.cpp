@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "inspect/advice.hpp"
 #include "inspect/model_report.hpp"
 
 namespace ballflow::inspect {
@@ -135,9 +136,11 @@ std::string text_of(const ModelReport& report) {
   const Vec3 extent = look.box.upper - look.box.lower;
   out.line("box", short_number(extent.x) + " x " + short_number(extent.y) + " x " + short_number(extent.z) +
                       ", from " + place(look.box.lower) + " to " + place(look.box.upper));
-  out.line("unit",
-           (report.units == "none" || report.units == "unknown" ? report.units : "probably " + report.units) +
-               ": " + report.units_reason);
+  std::string unit =
+      report.units == "none" || report.units == "unknown" ? report.units : "probably " + report.units;
+  unit += ": " + report.units_reason;
+  if (report.units == "millimetres") unit += "; --set " + sample_node + ".scale=mm makes metres of them";
+  out.line("unit", unit);
   for (const std::string& text : report.read) out.line("reading", text);
   out.line("spacing", std::string(cloud ? "the next point" : "edges") + ": " +
                           short_number(look.spacing.median) + " in the median, " +

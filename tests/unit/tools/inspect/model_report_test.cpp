@@ -109,6 +109,16 @@ TEST_F(InspectTest, cracks_are_told_with_the_distance_that_closes_them) {
   EXPECT_EQ(json_of(report).at("mesh").at("gaps").at("weld").at("closed"), true);
 }
 
+TEST_F(InspectTest, sizes_beyond_what_doubles_square_are_told_with_a_scale) {
+  for (const char* size : {"1e200", "1e-200"}) {
+    const ModelReport report = look("far.off", box(size));
+    ASSERT_FALSE(report.findings.empty());
+    EXPECT_NE(report.findings[0].what.find(size[2] == '2' ? "1e+200 long" : "1e-200 long"), std::string::npos)
+        << report.findings[0].what;
+    EXPECT_NE(report.command.find(".scale=1e"), std::string::npos) << report.command;
+  }
+}
+
 TEST_F(InspectTest, points_far_away_are_named) {
   std::ostringstream points;
   for (int i = 0; i < 300; ++i) points << std::sin(i) << " " << std::cos(i) << " " << i / 300.0 << "\n";
