@@ -25,6 +25,12 @@ std::string percent(double fraction) {
   return text;
 }
 
+std::string rounded(const Json& summary, const char* field) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", summary.at(field).get<double>());
+  return text;
+}
+
 std::string cover(const Json& s) {
   if (s.contains("remaining") && s.at("remaining") == 0) {
     std::string text = counted(s, "chosen", "ball") + " chosen";
@@ -59,13 +65,8 @@ std::string complex(const Json& s) {
 }
 
 std::string comparison(const Json& s) {
-  const auto rounded = [&](const char* field) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", s.at(field).get<double>());
-    return std::string(text);
-  };
-  std::string text = "Hausdorff distance " + rounded("hausdorff") + " (at most " +
-                     rounded("hausdorff_at_most") + "), mean " + rounded("chamfer");
+  std::string text = "Hausdorff distance " + rounded(s, "hausdorff") + " (at most " +
+                     rounded(s, "hausdorff_at_most") + "), mean " + rounded(s, "chamfer");
   // A closed mesh is what everybody expects.
   const auto surface = s.at("compared_with").get<std::string>();
   if (surface != "a closed mesh") text += ", from " + surface;
@@ -88,9 +89,7 @@ std::string minkowski(const Json& s) {
   std::string text = number(s, "pairs") + " pairs, " + number(s, "count") + " contribute, " +
                      number(s, "touching_boundary") + " on the boundary";
   if (s.at("error_bound").is_number()) {
-    char bound[32];
-    std::snprintf(bound, sizeof bound, "%.4g", s.at("error_bound").get<double>());
-    text += ", error at most " + std::string(bound);
+    text += ", error at most " + rounded(s, "error_bound");
   } else if (s.at("error_bound_unknown").is_string()) {
     text += ", error unknown: " + s.at("error_bound_unknown").get<std::string>();
   }
@@ -143,12 +142,12 @@ std::string describe(const OutputEntry& output) {
       {"Growth", growth},
       {"Bisection",
        [](const Json& s) {
-         return "growth " + s.at("value").dump() + " after " + counted(s, "tried", "trial");
+         return "growth " + rounded(s, "value") + " after " + counted(s, "tried", "trial");
        }},
       {"LocalFeatureSize",
        [](const Json& s) {
-         return counted(s, "count", "sample") + ", nearest pole from " + s.at("min_pole_distance").dump() +
-                " to " + s.at("max_pole_distance").dump() + " away";
+         return counted(s, "count", "sample") + ", nearest pole from " + rounded(s, "min_pole_distance") +
+                " to " + rounded(s, "max_pole_distance") + " away";
        }},
       {"MinkowskiReport", minkowski},
       {"PowerDiagram",

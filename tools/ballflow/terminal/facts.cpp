@@ -45,12 +45,14 @@ class Facts {
         return;
       }
     }
-    const OutputEntry* fallback = nullptr;
-    for (const auto& [name, output] : outputs_) {
-      if (output.type != "Balls") continue;
-      if (fallback == nullptr || name == "balls") fallback = &output;
+    // The result stands last: the sum of two solids, say.
+    const std::pair<std::string, OutputEntry>* result = nullptr;
+    for (const auto& output : outputs_) {
+      if (output.second.type == "Balls" && (result == nullptr || result->first != "balls")) result = &output;
     }
-    if (fallback != nullptr) facts_.push_back(describe(*fallback));
+    if (result == nullptr) return;
+    const std::string words = describe(result->second);
+    facts_.push_back(words.find(result->first) == std::string::npos ? result->first + ": " + words : words);
   }
 
   void topology() {

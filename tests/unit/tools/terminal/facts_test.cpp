@@ -32,6 +32,13 @@ TEST(key_facts, are_the_balls_and_the_topology) {
   EXPECT_EQ(facts[1], "topology kept: 1 component");
 }
 
+TEST(key_facts, name_the_balls_that_are_the_result) {
+  const std::array<std::string, 3> a = {"a", "Balls", R"({"count": 3})"},
+                                   sum = {"sum", "Balls", R"({"count": 9})"};
+  EXPECT_EQ(key_facts(outputs({a, sum}), Json::object()), (std::vector<std::string>{"9 sum balls"}));
+  EXPECT_EQ(key_facts(outputs({a, balls, sum}), Json::object()), (std::vector<std::string>{"286 balls"}));
+}
+
 TEST(key_facts, say_what_to_do_about_a_changed_topology) {
   const auto facts = key_facts(outputs({changed}), Json{{"repair", "none"}});
   ASSERT_EQ(facts.size(), 1u);
