@@ -188,8 +188,8 @@ class Parser {
 
   void end(const Header& header) {
     const std::string_view token = text_.token();
-    // DOS ends texts with this character.
-    if (token.find_first_not_of(std::string_view("\x1a\0", 2)) == std::string_view::npos) return;
+    // Some programs pad with zeros.
+    if (token.find_first_not_of('\0') == std::string_view::npos) return;
     throw InputError(excerpt(token) + " follows after the " + std::to_string(header.vertices) +
                          " vertices and " + std::to_string(header.faces) + " faces that the header promises" +
                          text_.place_of(token),

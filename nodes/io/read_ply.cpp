@@ -38,10 +38,10 @@ class AsciiValues {
     unreadable("a whole number");
   }
   void skip(Scalar type) { real(type); }
-  /// Ends when nothing follows but what DOS ends texts with.
+  /// Ends when nothing follows but zeros, with which some programs pad.
   bool at_end() {
     token_ = text_.token();
-    return token_.find_first_not_of(std::string_view("\x1a\0", 2)) == std::string_view::npos;
+    return token_.find_first_not_of('\0') == std::string_view::npos;
   }
   std::string rest() const { return excerpt(token_); }
   /// An element may go on in the next line, but what follows on its last line would be taken for the next

@@ -69,7 +69,9 @@ class TextCursor {
 
  private:
   bool blank(char c) const {
-    return c == ' ' || c == '\t' || c == '\v' || c == '\f' || separators_.find(c) != std::string_view::npos;
+    // DOS ends texts with Ctrl-Z.
+    return c == ' ' || c == '\t' || c == '\v' || c == '\f' || c == '\x1a' ||
+           separators_.find(c) != std::string_view::npos;
   }
   static bool line_end(char c) { return c == '\n' || c == '\r'; }
   /// The beginning of the next line when this one ends here with a continuation sign.

@@ -19,6 +19,9 @@ const std::vector<std::string>& seeds() {
       "4 2\n0 0 0 1 3 0 1\n1 0 0 1 3 1 1\n",
       "v 0 0 0 1\nv 1 0.5 -2 .25\nv 1e-3 2 3 4\n",
       "x,y,z,r,label\n0,0,0,1,2\n1,2,3,0.5,1\n",
+      "Z;\"Y [mm]\";x;diameter\n0,5;1;2;1,5\n1;2;3;1,25\n",
+      "1,5 0 0,25 1\n0 0 1 0,5\n",
+      "2 2\n0 0 0 4 1\n-1 0 0 2 1\n1 0 0 -1 1\n",
       "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
       "property double radius\nend_header\n0 0 0 1\n1 2 3 4\n"};
   return texts;

@@ -19,9 +19,17 @@ struct Seed {
   std::string content;
 };
 
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
+    text.replace(at, from.size(), to);
+  }
+  return text;
+}
+
 std::vector<Seed> seeds() {
   using test::Ply;
   const TriangleMesh m = test::small_mesh();
+  const std::string xyz = test::as_xyz(m), rows = xyz.substr(xyz.find('\n') + 1);
   return {{"off", MeshFormat::off, test::as_off(m, true, true)},
           {"obj", MeshFormat::obj, test::as_obj(m, true)},
           {"obj_negative", MeshFormat::obj, test::as_obj(m, false, true)},
@@ -31,7 +39,14 @@ std::vector<Seed> seeds() {
           {"stl_ascii", MeshFormat::stl, test::as_ascii_stl(m)},
           {"stl_binary", MeshFormat::stl, test::as_binary_stl(m)},
           {"xyz", MeshFormat::xyz, test::as_xyz(m, true)},
-          {"pts", MeshFormat::xyz, test::as_xyz(m, false, true)}};
+          {"pts", MeshFormat::xyz, test::as_xyz(m, false, true)},
+          {"off_modelnet", MeshFormat::off, replaced(test::as_off(m), "OFF\n# made by a test\n", "OFF")},
+          {"obj_continued", MeshFormat::obj, replaced(test::as_obj(m, true), " ", " \\\n")},
+          {"stl_words", MeshFormat::stl,
+           replaced(replaced(test::as_ascii_stl(m), "endloop", "end loop"), "\n", " ")},
+          {"csv_names", MeshFormat::xyz, "\"X [mm]\",Y,Z\n" + replaced(rows, " ", ",")},
+          {"decimal_commas", MeshFormat::xyz, replaced(replaced(rows, ".", ","), " ", ";")},
+          {"two_scans", MeshFormat::xyz, test::as_xyz(m, false, true) + "2\n9 9 9 1\n8 8 8 1\n"}};
 }
 
 /// Reads; whatever comes out must be whole.

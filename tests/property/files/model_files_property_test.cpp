@@ -51,6 +51,7 @@ std::string written(const ModelText& text, Dice& dice, bool free_lines) {
   }
   // The last line may lack its end.
   if (dice.once_in(3)) result.resize(result.size() - end.size());
+  if (dice.once_in(9)) result += "\x1a";
   return result;
 }
 
