@@ -13,19 +13,27 @@
 // centre of a ball lies on every Voronoi edge whose three sites are on its sphere, for no site is nearer to
 // it. All W on one ball are cospherical: their Delaunay cells all have the ball's centre as circumcentre.
 // This is decided by names, never by coordinates, so that rounding cannot tear the centre apart.
+//
+// All this is true of exact points. In doubles it fails where points of W lie closer than they are rounded,
+// or the plane of T_w passes closer to a Voronoi vertex: then it is done with exact decisions, of balls
+// without ties.
 #include "axis/medial_axis.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "axis/grown_sites.hpp"
+#include "axis/tidy_pieces.hpp"
 #include "axis/voronoi_facets.hpp"
 #include "axis/voronoi_places.hpp"
 #include "homology/axis_betti.hpp"
+#include "power/grown_balls.hpp"
 #include "power/power_diagram.hpp"
 #include "power/union_vertices.hpp"
 #include "types/topology_table.hpp"
@@ -35,47 +43,55 @@ namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
+/// The longest edge of the bounding box of the union.
+double size_of(const SimplicialComplex& complex) {
+  Box box;
+  for (const std::int32_t b : complex.vertices) {
+    const Vec3 c = complex.centers[at(b)];
+    const double r = std::sqrt(std::max(0.0, complex.weights[at(b)]));
+    box.add(c - Vec3{r, r, r});
+    box.add(c + Vec3{r, r, r});
+  }
+  return box.longest_edge();
+}
+
+/// Puts an axis together from a complex and the places of its Voronoi vertices.
 class Axis {
  public:
-  Axis(const SimplicialComplex& complex, const PowerDiagram* diagram, Monitor& monitor)
-      : complex_(complex), diagram_(diagram), monitor_(monitor), look_(monitor) {}
+  /// Keeps references. `places` is null without tetrahedra.
+  Axis(const SimplicialComplex& complex, const VoronoiPlaces* places, Monitor& monitor)
+      : complex_(complex), places_(places), monitor_(monitor), look_(monitor) {}
 
-  MedialAxis run() {
-    if (!complex_.tetrahedra.empty()) add_regular_part();
+  /// None where a cell of a boundary vertex is not closed (see cells_are_closed). With `same`, what rounding
+  /// alone has made, corners no farther apart among it, is taken away.
+  std::optional<MedialAxis> run(double same = 0) {
+    if (places_ != nullptr) {
+      PartMonitor facets(monitor_, 0.7, 0.9);
+      pieces_ = voronoi_facets(complex_, *places_, facets);
+      if (!cells_are_closed(complex_, places_->sites(), pieces_, monitor_)) return std::nullopt;
+    }
     add_singular_part();
+    if (same > 0) tidy(same);
     return finish();
   }
 
  private:
-  void add_regular_part();
   void add_singular_part();
+  void tidy(double same);
   MedialAxis finish();
+  Vec3 position(std::int32_t name) const {
+    const auto balls = static_cast<std::int32_t>(complex_.centers.size());
+    return name < balls ? complex_.centers[at(name)] : places_->position(name - balls);
+  }
 
   const SimplicialComplex& complex_;
-  const PowerDiagram* diagram_;  // null where it is not known
+  const VoronoiPlaces* places_;
   Monitor& monitor_;
   Lookout look_;
-  std::optional<VoronoiPlaces> places_;  // none without tetrahedra
   std::vector<AxisPiece> pieces_;
   std::vector<std::array<std::int32_t, 2>> edges_;
   std::vector<std::int32_t> isolated_;
 };
-
-void Axis::add_regular_part() {
-  Box box;
-  for (const std::int32_t b : complex_.vertices) {
-    const Vec3 c = complex_.centers[at(b)];
-    const double r = std::sqrt(std::max(0.0, complex_.weights[at(b)]));
-    box.add(c - Vec3{r, r, r});
-    box.add(c + Vec3{r, r, r});
-  }
-  const double size = box.longest_edge();
-  PartMonitor first(monitor_, 0, 0.1), second(monitor_, 0.1, 0.7), third(monitor_, 0.7, 0.9);
-  const auto named =
-      diagram_ != nullptr ? exposed_sides(complex_, *diagram_, first) : exposed_sides(complex_, first);
-  places_.emplace(complex_, union_vertices(complex_, named, std::ldexp(size, -40), first), size, second);
-  pieces_ = voronoi_facets(complex_, *places_, third);
-}
 
 void Axis::add_singular_part() {
   std::vector<bool> has_triangle(complex_.edges.size(), false), has_edge(complex_.centers.size(), false);
@@ -108,9 +124,20 @@ void Axis::add_singular_part() {
     if (!has_edge[at(b)]) isolated_.push_back(b);
   }
 }
+
+void Axis::tidy(double same) {
+  TidyOptions options;
+  options.balls = static_cast<std::int32_t>(complex_.centers.size());
+  options.same = [this, same](std::int32_t a, std::int32_t b) {
+    return distance(position(a), position(b)) <= same;
+  };
+  tidy_pieces(pieces_, edges_, options, monitor_);
+}
+
 /// Numbers the vertices in the order of their names and the polygons in the order of their corners.
 MedialAxis Axis::finish() {
-  std::vector<std::int32_t> index(complex_.centers.size() + (places_ ? places_->cells().size() : 0), -1);
+  std::vector<std::int32_t> index(
+      complex_.centers.size() + (places_ != nullptr ? places_->cells().size() : 0), -1);
   for (const AxisPiece& piece : pieces_) {
     look_(16);
     for (const std::int32_t name : piece.corners) index[at(name)] = 0;
@@ -173,18 +200,59 @@ MedialAxis Axis::finish() {
   return with_sheets(std::move(axis), monitor_);
 }
 
+/// The axis from boundary vertices in doubles; none where a cell is not closed. `diagram`: null where it is
+/// not known.
+std::optional<MedialAxis> rounded_axis(const SimplicialComplex& complex, const PowerDiagram* diagram,
+                                       Monitor& monitor) {
+  if (complex.tetrahedra.empty()) return Axis(complex, nullptr, monitor).run();
+  const double size = size_of(complex);
+  PartMonitor first(monitor, 0, 0.1), second(monitor, 0.1, 0.7);
+  const auto named =
+      diagram != nullptr ? exposed_sides(complex, *diagram, first) : exposed_sides(complex, first);
+  const RoundedPlaces places(complex, union_vertices(complex, named, std::ldexp(size, -40), first), size,
+                             second);
+  return Axis(complex, &places, monitor).run();
+}
+
+/// The axis without a rounded decision, of balls that grew by less than any feature; slower.
+MedialAxis grown_axis(const SimplicialComplex& complex, Monitor& monitor) {
+  const GrownBalls balls(complex.centers.span(), complex.weights.span());
+  const double size = size_of(complex);
+  PartMonitor first(monitor, 0, 0.2), second(monitor, 0.2, 0.3);
+  const SimplicialComplex grown = grown_complex(balls, first);
+  if (grown.tetrahedra.empty()) return *Axis(grown, nullptr, monitor).run();
+  const GrownSites sites(grown, balls, second);
+  const GrownPlaces places(grown, sites, size, monitor);
+  std::optional<MedialAxis> axis = Axis(grown, &places, monitor).run(std::ldexp(size, -36));
+  if (!axis)
+    throw std::logic_error("the cells of the medial axis are not closed although every decision was exact");
+  return *std::move(axis);
+}
+
 MedialAxis checked_axis(const SimplicialComplex& complex, const PowerDiagram* diagram,
                         const MedialAxisOptions& options, Monitor& monitor) {
-  MedialAxis axis = Axis(complex, diagram, monitor).run();
-  if (const Betti found = axis_betti(axis, monitor); found != complex.betti) {
+  std::optional<MedialAxis> axis;
+  Betti found{};
+  if (!options.exact || complex.tetrahedra.empty()) {
+    axis = rounded_axis(complex, diagram, monitor);
+    if (axis) found = axis_betti(*axis, monitor);
+  }
+  if (!axis || (found != complex.betti && !complex.tetrahedra.empty())) {
+    if (!options.exact) monitor.note("rounding hides the structure of the axis: again with exact decisions");
+    axis = grown_axis(complex, monitor);
+    found = axis_betti(*axis, monitor);
+  }
+  if (found != complex.betti) {
     const std::string cause =
         "the axis has " + describe(found) + ", but the union has " + describe(complex.betti);
-    const std::string hint = "enlarge the balls before the alpha-shape is taken (node Enlarge)";
+    const std::string hint =
+        "the alpha-shape is not that of its balls, whose axis this is: make it from the balls (node "
+        "AlphaShape)";
     if (options.on_mismatch == AxisMismatch::error) throw InputError(cause, hint);
     monitor.warn(cause + "; " + hint);
   }
   monitor.step(1);
-  return axis;
+  return *std::move(axis);
 }
 
 }  // namespace

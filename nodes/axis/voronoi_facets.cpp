@@ -49,12 +49,11 @@ class Facets {
   const UnionVertices& sites() const { return places_.sites(); }
   const std::vector<DelaunayCell>& cells() const { return places_.cells(); }
   std::int32_t balls() const { return static_cast<std::int32_t>(complex_.centers.size()); }
-  Vec3 center(std::int32_t ball) const { return complex_.centers[at(ball)]; }
 
   void add_facet(std::int32_t w0, std::int32_t w1, std::span<const std::int32_t> ring,
                  std::span<const std::int32_t> apexes);
   void keep_inside(Polygon polygon, std::int32_t w0, std::int32_t w1, bool cut);
-  void add_polygon(const Polygon& polygon, AxisKind kind);
+  void add_polygon(const Polygon& polygon, AxisKind kind, const std::array<std::int32_t, 2>& between);
 
   const SimplicialComplex& complex_;
   const VoronoiPlaces& places_;
@@ -123,14 +122,8 @@ void Facets::add_facet(std::int32_t w0, std::int32_t w1, std::span<const std::in
       if (places_.all_on(ball, three)) polygon.push_back(ball);
     }
     if (polygon.size() - before < 2) return;
-    const VoronoiVertex first = vertex(from);
-    const Vec3 start =
-        first.place == VoronoiVertex::Place::on ? center(first.name) : places_.position(ring[from % n]);
     std::sort(polygon.begin() + static_cast<std::ptrdiff_t>(before), polygon.end(),
-              [&](std::int32_t a, std::int32_t b) {
-                const double da = squared_distance(center(a), start), db = squared_distance(center(b), start);
-                return da != db ? da < db : a < b;
-              });
+              [&](std::int32_t a, std::int32_t b) { return places_.nearer(a, b, ring[from % n]); });
   };
 
   std::size_t start = 0;  // behind a vertex outside R, if there is one
@@ -160,12 +153,9 @@ void Facets::add_facet(std::int32_t w0, std::int32_t w1, std::span<const std::in
 /// between the last corner and the first.
 void Facets::keep_inside(Polygon polygon, std::int32_t w0, std::int32_t w1, bool cut) {
   const auto is_ball = [this](std::int32_t name) { return name < balls(); };
-  const auto depth_of = [&](Vec3 x) {  // the site that sees x more clearly decides
-    const double d0 = places_.depth(w0, x), d1 = places_.depth(w1, x);
-    return std::abs(d0) > std::abs(d1) ? d0 : d1;
-  };
+  const auto place_of = [&](const Polygon& of_balls) { return places_.place_of_centroid(w0, w1, of_balls); };
   if (std::count_if(polygon.begin(), polygon.end(), is_ball) < 2)
-    return add_polygon(polygon, AxisKind::voronoi);
+    return add_polygon(polygon, AxisKind::voronoi, {w0, w1});
 
   std::vector<Edge> shared;  // edges between triangles of w0 and of w1
   for (const auto& f0 : sites().faces_of(at(w0))) {
@@ -189,8 +179,7 @@ void Facets::keep_inside(Polygon polygon, std::int32_t w0, std::int32_t w1, bool
     if (a == b || !is_ball(a) || !is_ball(b)) continue;
     if (is_shared(a, b)) {
       wall = true;
-    } else if (shared.size() > 1 &&
-               ((last && cut) || depth_of(0.5 * (center(a) + center(b))) <= places_.same())) {
+    } else if (shared.size() > 1 && ((last && cut) || place_of({a, b}) != VoronoiVertex::Place::in)) {
       const Polygon path = path_between(a, b, shared);
       corners.insert(corners.end(), path.begin(), path.end());
       wall = wall || !path.empty();
@@ -201,17 +190,16 @@ void Facets::keep_inside(Polygon polygon, std::int32_t w0, std::int32_t w1, bool
     std::sort(centers.begin(), centers.end());
     centers.erase(std::unique(centers.begin(), centers.end()), centers.end());
     if (centers.size() < 3) return;
-    Vec3 centroid;
-    for (const std::int32_t b : centers) centroid = centroid + center(b);
     // A facet may lie in the boundary of R: the polytope outside it is then flat.
-    if (depth_of((1.0 / static_cast<double>(centers.size())) * centroid) < -places_.same()) return;
+    if (place_of(centers) == VoronoiVertex::Place::out) return;
   }
-  add_polygon(corners, wall ? AxisKind::wall : AxisKind::voronoi);
+  add_polygon(corners, wall ? AxisKind::wall : AxisKind::voronoi, {w0, w1});
 }
 
 /// Adds the loops of a closed chain of names: equal neighbours are one corner, and a name that comes back
 /// splits the chain.
-void Facets::add_polygon(const Polygon& polygon, AxisKind kind) {
+void Facets::add_polygon(const Polygon& polygon, AxisKind kind, const std::array<std::int32_t, 2>& between) {
+  const bool needless = places_.coincide(between[0], between[1]);
   Polygon chain;
   for (const std::int32_t name : polygon) {
     const auto before = std::find(chain.begin(), chain.end(), name);
@@ -219,16 +207,47 @@ void Facets::add_polygon(const Polygon& polygon, AxisKind kind) {
       chain.push_back(name);
       continue;
     }
-    if (chain.end() - before >= 3) pieces_.push_back({Polygon(before, chain.end()), kind});
+    if (chain.end() - before >= 3) pieces_.push_back({Polygon(before, chain.end()), kind, needless, between});
     chain.erase(before + 1, chain.end());
   }
-  if (chain.size() >= 3) pieces_.push_back({std::move(chain), kind});
+  if (chain.size() >= 3) pieces_.push_back({std::move(chain), kind, needless, between});
 }
 }  // namespace
 
 std::vector<AxisPiece> voronoi_facets(const SimplicialComplex& complex, const VoronoiPlaces& places,
                                       Monitor& monitor) {
   return Facets(complex, places, monitor).run();
+}
+
+bool cells_are_closed(const SimplicialComplex& complex, const UnionVertices& sites,
+                      std::span<const AxisPiece> pieces, Monitor& monitor) {
+  using SideOfCell = std::array<std::int32_t, 3>;  // site, ends
+  std::vector<SideOfCell> sides;
+  Lookout look(monitor);
+  const auto add = [&](std::int32_t w, std::int32_t a, std::int32_t b) {
+    look(4);
+    sides.push_back({w, std::min(a, b), std::max(a, b)});
+  };
+  for (const AxisPiece& piece : pieces) {
+    for (const std::int32_t w : piece.sites) {
+      for (std::size_t k = 0; k < piece.corners.size(); ++k)
+        add(w, piece.corners[k], piece.corners[(k + 1) % piece.corners.size()]);
+    }
+  }
+  for (std::size_t w = 0; w < sites.size(); ++w) {
+    for (const UnionVertices::Face& face : sites.faces_of(w)) {
+      const auto& t = complex.triangles[at(face.triangle)];
+      for (std::size_t k = 0; k < 3; ++k) add(static_cast<std::int32_t>(w), t[k], t[(k + 1) % 3]);
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [&look](const SideOfCell& a, const SideOfCell& b) {
+    look(2);
+    return a < b;
+  });
+  for (std::size_t i = 0; i < sides.size(); i += 2) {
+    if (i + 1 == sides.size() || sides[i] != sides[i + 1]) return false;
+  }
+  return true;
 }
 
 }  // namespace ballflow::geometry

@@ -14,6 +14,7 @@
 #include "cover/cover_matrix.hpp"
 #include "cover/greedy.hpp"
 #include "gudhi_oracle.hpp"
+#include "homology/axis_betti.hpp"
 #include "homology/inclusion_homology.hpp"
 #include "poles/label_poles.hpp"
 #include "poles/voronoi_poles.hpp"
@@ -166,6 +167,26 @@ INSTANTIATE_TEST_SUITE_P(Files, EveryModel,
                                          Model{"rocker_arm.obj.gz", 1, true},
                                          Model{"cheese.off.gz", 133, false}),
                          name_of);
+
+TEST(Reports, of_boxes_on_a_grid_lose_no_part_of_their_medial_axis) {
+  class Listener final : public Monitor {
+   public:
+    void warn(const std::string& text) override { ADD_FAILURE() << text; }
+    void note(const std::string& text) override { notes.push_back(text); }
+    std::vector<std::string> notes;
+  };
+  for (const char* name : {"rod.off", "15.off"}) {
+    SCOPED_TRACE(name);
+    const std::string file = test::data_file("reports/axis/" + std::string(name));
+    if (file.empty()) GTEST_SKIP() << "the folder of test models is absent";
+    const Pipeline p = prune(file, 0.3);
+    const SimplicialComplex complex = alpha_shape(select(p.all, p.kept), {}, no_monitor());
+    Listener listener;
+    const MedialAxis axis = medial_axis(complex, {}, listener);
+    EXPECT_EQ(axis_betti(axis, no_monitor()), complex.betti);
+    EXPECT_FALSE(listener.notes.empty()) << "doubles are enough for these balls: the test needs others";
+  }
+}
 
 /// Scans, for tools/nightly: BALLFLOW_TEST_LARGE=1.
 TEST(LargeModels, are_repaired_after_heavy_and_light_pruning) {
