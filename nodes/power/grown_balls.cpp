@@ -1,18 +1,19 @@
 #include "power/grown_balls.hpp"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/Fixed_alpha_shape_3.h>
-#include <CGAL/Fixed_alpha_shape_cell_base_3.h>
-#include <CGAL/Fixed_alpha_shape_vertex_base_3.h>
 #include <CGAL/Regular_triangulation_3.h>
 #include <CGAL/Regular_triangulation_cell_base_3.h>
 #include <CGAL/Regular_triangulation_vertex_base_3.h>
+#include <CGAL/Triangulation_cell_base_with_info_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "exact/spatial_order.hpp"
@@ -21,13 +22,14 @@ namespace ballflow::geometry {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
-using VertexBase = CGAL::Fixed_alpha_shape_vertex_base_3<
-    Kernel, CGAL::Triangulation_vertex_base_with_info_3<std::int32_t, Kernel,
-                                                        CGAL::Regular_triangulation_vertex_base_3<Kernel>>>;
-using CellBase = CGAL::Fixed_alpha_shape_cell_base_3<Kernel, CGAL::Regular_triangulation_cell_base_3<Kernel>>;
+using VertexBase =
+    CGAL::Triangulation_vertex_base_with_info_3<std::int32_t, Kernel,
+                                                CGAL::Regular_triangulation_vertex_base_3<Kernel>>;
+using CellBase =
+    CGAL::Regular_triangulation_cell_base_3<Kernel, CGAL::Triangulation_cell_base_with_info_3<bool, Kernel>,
+                                            CGAL::Discard_hidden_points>;  // in the complex
 using Triangulation =
     CGAL::Regular_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
-using AlphaShape = CGAL::Fixed_alpha_shape_3<Triangulation>;
 
 /// The place of the last bit that is set: value = odd number * 2^place. The value is not 0.
 int last_bit(double value) {
@@ -53,11 +55,104 @@ Kernel::Exact_kernel::FT power_of_two(long exponent) {
   return out;
 }
 
-template <class Simplices>
-void sort(Simplices& simplices) {
-  for (auto& simplex : simplices) std::sort(simplex.begin(), simplex.end());
-  std::sort(simplices.begin(), simplices.end());
+template <std::size_t N>
+std::array<std::int32_t, N> sorted(std::array<std::int32_t, N> simplex) {
+  std::sort(simplex.begin(), simplex.end());
+  return simplex;
 }
+
+/// The simplices of the zero alpha-shape, from cells down to vertices: one is in it when a coface is, or when
+/// it is a Gabriel simplex whose orthogonal sphere has a squared radius <= 0.
+class Complex {
+ public:
+  Complex(Triangulation& triangulation, Monitor& monitor) : triangulation_(triangulation), look_(monitor) {
+    add_tetrahedra();
+    add_triangles();
+    add_edges();
+    add_vertices();
+  }
+
+  std::vector<std::int32_t> vertices;
+  std::vector<std::array<std::int32_t, 2>> edges;
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  std::vector<std::array<std::int32_t, 4>> tetrahedra;
+
+ private:
+  static constexpr std::size_t exact_work = 1 << 14;  // of a predicate, in elements visited
+
+  template <class... Vertices>
+  bool meet(const Vertices&... v) const {
+    return triangulation_.geom_traits().compare_weighted_squared_radius_3_object()(
+               v->point()..., Kernel::FT(0)) != CGAL::LARGER;
+  }
+  template <class Simplices>
+  void order(Simplices& simplices) {
+    std::sort(simplices.begin(), simplices.end(), [this](const auto& a, const auto& b) {
+      look_(4);
+      return a < b;
+    });
+    simplices.erase(std::unique(simplices.begin(), simplices.end()), simplices.end());
+  }
+
+  void add_tetrahedra() {
+    for (auto c = triangulation_.all_cells_begin(); c != triangulation_.all_cells_end(); ++c) {
+      look_(exact_work);
+      c->info() =
+          !triangulation_.is_infinite(c) && meet(c->vertex(0), c->vertex(1), c->vertex(2), c->vertex(3));
+      if (!c->info()) continue;
+      tetrahedra.push_back(sorted<4>(
+          {c->vertex(0)->info(), c->vertex(1)->info(), c->vertex(2)->info(), c->vertex(3)->info()}));
+    }
+    order(tetrahedra);
+  }
+  void add_triangles() {
+    for (auto f = triangulation_.finite_facets_begin(); f != triangulation_.finite_facets_end(); ++f) {
+      look_(exact_work);
+      const auto vertex = [&](int k) { return f->first->vertex((f->second + k) & 3); };
+      const bool face = f->first->info() || f->first->neighbor(f->second)->info();
+      if (face || (meet(vertex(1), vertex(2), vertex(3)) && triangulation_.is_Gabriel(*f)))
+        triangles.push_back(sorted<3>({vertex(1)->info(), vertex(2)->info(), vertex(3)->info()}));
+    }
+    order(triangles);
+  }
+  void add_edges() {
+    for (const auto& t : triangles) {
+      look_(8);
+      for (const auto& [a, b] : {std::array{t[0], t[1]}, std::array{t[0], t[2]}, std::array{t[1], t[2]}})
+        edges.push_back({a, b});
+    }
+    order(edges);
+    const std::size_t sides = edges.size();
+    for (auto e = triangulation_.finite_edges_begin(); e != triangulation_.finite_edges_end(); ++e) {
+      look_(exact_work);
+      const auto u = e->first->vertex(e->second), v = e->first->vertex(e->third);
+      const std::array<std::int32_t, 2> edge = sorted<2>({u->info(), v->info()});
+      if (std::binary_search(edges.begin(), edges.begin() + static_cast<std::ptrdiff_t>(sides), edge))
+        continue;
+      if (meet(u, v) && triangulation_.is_Gabriel(*e)) edges.push_back(edge);
+    }
+    order(edges);
+  }
+  void add_vertices() {
+    for (const auto& [a, b] : edges) {
+      vertices.push_back(a);
+      vertices.push_back(b);
+    }
+    order(vertices);
+    const std::size_t ends = vertices.size();
+    for (auto v = triangulation_.finite_vertices_begin(); v != triangulation_.finite_vertices_end(); ++v) {
+      look_(exact_work);
+      if (std::binary_search(vertices.begin(), vertices.begin() + static_cast<std::ptrdiff_t>(ends),
+                             v->info()))
+        continue;
+      if (triangulation_.is_Gabriel(v)) vertices.push_back(v->info());  // the ball's weight is positive
+    }
+    order(vertices);
+  }
+
+  Triangulation& triangulation_;
+  Lookout look_;
+};
 
 }  // namespace
 
@@ -115,45 +210,19 @@ SimplicialComplex grown_complex(const GrownBalls& balls, Monitor& monitor) {
     hint = vertex->cell();
   }
   if (triangulation.dimension() < 3) throw InputError("the centres of the balls lie in a plane", "");
-  const AlphaShape shape(triangulation, 0);
-  monitor.step(0.9);
-
-  std::vector<std::int32_t> vertices;
-  std::vector<std::array<std::int32_t, 2>> edges;
-  std::vector<std::array<std::int32_t, 3>> triangles;
-  std::vector<std::array<std::int32_t, 4>> tetrahedra;
-  for (auto v = shape.finite_vertices_begin(); v != shape.finite_vertices_end(); ++v) {
-    if (shape.classify(v) != AlphaShape::EXTERIOR) vertices.push_back(v->info());
-  }
-  for (auto e = shape.finite_edges_begin(); e != shape.finite_edges_end(); ++e) {
-    if (shape.classify(*e) != AlphaShape::EXTERIOR)
-      edges.push_back({e->first->vertex(e->second)->info(), e->first->vertex(e->third)->info()});
-  }
-  for (auto f = shape.finite_facets_begin(); f != shape.finite_facets_end(); ++f) {
-    if (shape.classify(*f) == AlphaShape::EXTERIOR) continue;
-    const auto ball = [&](int k) { return f->first->vertex((f->second + k) & 3)->info(); };
-    triangles.push_back({ball(1), ball(2), ball(3)});
-  }
-  for (Triangulation::Cell_handle c : shape.finite_cell_handles()) {
-    if (shape.classify(c) == AlphaShape::EXTERIOR) continue;
-    tetrahedra.push_back(
-        {c->vertex(0)->info(), c->vertex(1)->info(), c->vertex(2)->info(), c->vertex(3)->info()});
-  }
-  std::sort(vertices.begin(), vertices.end());
-  sort(edges);
-  sort(triangles);
-  sort(tetrahedra);
+  monitor.step(0.7);
+  Complex found(triangulation, monitor);
 
   SimplicialComplex complex;
-  complex.vertex_classes = std::vector<std::uint8_t>(vertices.size());
-  complex.edge_classes = std::vector<std::uint8_t>(edges.size());
-  complex.triangle_classes = std::vector<std::uint8_t>(triangles.size());
+  complex.vertex_classes = std::vector<std::uint8_t>(found.vertices.size());
+  complex.edge_classes = std::vector<std::uint8_t>(found.edges.size());
+  complex.triangle_classes = std::vector<std::uint8_t>(found.triangles.size());
   complex.centers = std::move(centers);
   complex.weights = std::move(weights);
-  complex.vertices = std::move(vertices);
-  complex.edges = std::move(edges);
-  complex.triangles = std::move(triangles);
-  complex.tetrahedra = std::move(tetrahedra);
+  complex.vertices = std::move(found.vertices);
+  complex.edges = std::move(found.edges);
+  complex.triangles = std::move(found.triangles);
+  complex.tetrahedra = std::move(found.tetrahedra);
   monitor.step(1);
   return complex;
 }

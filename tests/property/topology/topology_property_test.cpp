@@ -180,10 +180,11 @@ TEST(Reports, of_boxes_on_a_grid_lose_no_part_of_their_medial_axis) {
     const std::string file = test::data_file("reports/axis/" + std::string(name));
     if (file.empty()) GTEST_SKIP() << "the folder of test models is absent";
     const Pipeline p = prune(file, 0.3);
-    const SimplicialComplex complex = alpha_shape(select(p.all, p.kept), {}, no_monitor());
     Listener listener;
-    const MedialAxis axis = medial_axis(complex, {}, listener);
-    EXPECT_EQ(axis_betti(axis, no_monitor()), complex.betti);
+    for (const Balls& balls : {select(p.all, p.kept), p.enlarged, p.inner}) {
+      const SimplicialComplex complex = alpha_shape(balls, {}, no_monitor());
+      EXPECT_EQ(axis_betti(medial_axis(complex, {}, listener), no_monitor()), complex.betti);
+    }
     EXPECT_FALSE(listener.notes.empty()) << "doubles are enough for these balls: the test needs others";
   }
 }
