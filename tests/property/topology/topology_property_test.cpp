@@ -181,7 +181,7 @@ TEST(Reports, of_boxes_on_a_grid_lose_no_part_of_their_medial_axis) {
     if (file.empty()) GTEST_SKIP() << "the folder of test models is absent";
     const Pipeline p = prune(file, 0.3);
     Listener listener;
-    for (const Balls& balls : {select(p.all, p.kept), p.enlarged, p.inner}) {
+    for (const Balls& balls : {select(p.all, p.kept), p.inner}) {
       const SimplicialComplex complex = alpha_shape(balls, {}, no_monitor());
       EXPECT_EQ(axis_betti(medial_axis(complex, {}, listener), no_monitor()), complex.betti);
     }
