@@ -25,14 +25,29 @@ Places::Places() {
   }
 }
 
-Places::Place Places::place_of(const std::string& path) {
-  Place place{path, path, std::nullopt, false};
+std::string Places::real_path(const std::string& path) {
   std::error_code error;
+  return real(fs::absolute(path, error));
+}
+
+std::string Places::real(const fs::path& path) {
   // Links are resolved as far as there are files; what follows will be made of plain folders, of which ".."
   // leads back. A link that leads nowhere is replaced, not followed, when it is written.
-  const fs::path real = fs::weakly_canonical(fs::absolute(path, error), error);
-  place.path = error ? fs::path(path).lexically_normal().string() : real.string();
-  if (place.path.size() > 1 && place.path.back() == '/') place.path.pop_back();
+  std::error_code error;
+  const fs::path name = path.filename(), folder = path.parent_path();
+  if (name.empty() || name == "." || name == ".." || folder == path || fs::is_symlink(path, error)) {
+    const fs::path whole = fs::weakly_canonical(path, error);
+    std::string real = error ? path.lexically_normal().string() : whole.string();
+    if (real.size() > 1 && real.back() == '/') real.pop_back();
+    return real;
+  }
+  auto known = real_folders_.find(folder.string());
+  if (known == real_folders_.end()) known = real_folders_.emplace(folder.string(), real(folder)).first;
+  return (fs::path(known->second) / name).string();
+}
+
+Places::Place Places::place_of(const std::string& path) {
+  Place place{path, real_path(path), std::nullopt, false};
   struct stat status {};
   if (stat(path.c_str(), &status) != 0 && stat(place.path.c_str(), &status) != 0) return place;
   place.is_special = !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);

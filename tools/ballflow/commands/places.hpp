@@ -3,6 +3,7 @@
 
 #include <sys/stat.h>
 
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
@@ -52,7 +53,10 @@ class Places {
     const Use* find(const Place& place) const;
   };
 
-  static Place place_of(const std::string& path);
+  /// Absolute and without links.
+  std::string real_path(const std::string& path);
+  std::string real(const std::filesystem::path& absolute);
+  Place place_of(const std::string& path);
   bool in_cache(const Place& place);
   void reads(const DagNode& node);
 
@@ -60,6 +64,8 @@ class Places {
   std::set<File> printed_;      // where standard output and error go, when they are files
   std::set<std::string> seen_;  // what is read: a sweep names the same files many times
   std::optional<Place> cache_;
+  // A sweep writes many files to few folders.
+  std::map<std::string, std::string> real_folders_;
   std::map<std::string, bool> folders_in_cache_;
 };
 

@@ -163,6 +163,8 @@ TEST(sweep, subgraphs_and_loops_are_shared_like_nodes) {
   EXPECT_EQ(std::count(all.begin(), all.end(), "[keep=0.1]/rounds"), 1);
   EXPECT_EQ(std::count(all.begin(), all.end(), "[keep=0.2]/sub/trim"), 1);
   EXPECT_EQ(all.size(), 3u + 2u + 2u + 2u) << "loops with different bodies are different";
+  EXPECT_EQ(dag.files, (std::vector<std::string>{folder.file("g.json"), folder.file("body.json")}))
+      << "each file that was read, once, however often it is included";
   ASSERT_EQ(dag.variants[3].interfaces.size(), 1u);
   EXPECT_EQ(dag.variants[3].interfaces[0].name, "sub.cover");
   EXPECT_EQ(dag.nodes[dag.variants[3].interfaces[0].from.node].path, "[keep=0.2]/sub/trim");
