@@ -114,11 +114,26 @@ std::string remedy_for(const std::string& warning, const Json& params) {
   const bool change = says(" opened ") || says(" closed ") || says(" added ") || says(" joined or lost ");
   if (!change || !params.is_object()) return "";
   // The first step that changes something is the one to look at.
-  if (says("the union of inner balls"))
-    return "the samples are too far apart for a wall or a slot: \"ballflow look FILE\" says where";
-  if (says("growing") && params.contains("epsilon"))
-    return "a smaller epsilon grows less, --set enlarge.mode=power_diagram only as far as the topology "
-           "allows";
+  const auto param = [&](const char* name) {
+    return params.contains(name) && params.at(name).is_string() ? params.at(name).get<std::string>()
+                                                                : std::string();
+  };
+  if (says("the union of inner balls")) {
+    const std::string sampling = param("sampling");
+    if (sampling == "vertices" || sampling == "surface")
+      return "--set sampling=adaptive takes samples that follow walls and slots";
+    const std::string look = "\"ballflow look FILE\" says where the shape is thin";
+    return sampling.empty() ? "the samples are too far apart for a wall or a slot: " + look
+                            : "a smaller delta takes more samples; " + look;
+  }
+  if (says("growing") && params.contains("epsilon")) {
+    const std::string growth = param("growth");
+    std::string text = "a smaller epsilon grows less";
+    if (growth != "power_diagram")
+      text += std::string(", --set ") + (growth.empty() ? "enlarge.mode" : "growth") +
+              "=power_diagram only as far as the topology allows";
+    return text;
+  }
   if (says("pruning") && params.value("repair", "") == "none")
     return "--set repair=topology returns the balls that pruning should have kept";
   return "";

@@ -92,6 +92,17 @@ TEST(remedy, is_about_the_first_step_that_changed_the_topology) {
             std::string::npos);
   EXPECT_NE(remedy_for("growing closed 1 tunnel", params).find("epsilon"), std::string::npos);
   EXPECT_EQ(remedy_for("growing closed 1 tunnel", Json::object()), "");
+  // It names what the graph has, and nothing that is chosen already.
+  EXPECT_NE(remedy_for("growing closed 1 tunnel", params).find("enlarge.mode=power_diagram"),
+            std::string::npos);
+  EXPECT_NE(remedy_for("growing closed 1 tunnel", {{"epsilon", 1}, {"growth", "additive"}})
+                .find("growth=power_diagram"),
+            std::string::npos);
+  EXPECT_EQ(remedy_for("growing closed 1 tunnel", {{"epsilon", 1}, {"growth", "power_diagram"}}),
+            "a smaller epsilon grows less");
+  const std::string coarse = "the union of inner balls opened 1 tunnel";
+  EXPECT_NE(remedy_for(coarse, {{"sampling", "vertices"}}).find("sampling=adaptive"), std::string::npos);
+  EXPECT_NE(remedy_for(coarse, {{"sampling", "auto"}}).find("smaller delta"), std::string::npos);
   EXPECT_EQ(remedy_for("12 vertices equal earlier ones and are welded to it", params), "");
 }
 
