@@ -77,7 +77,7 @@ std::vector<Index> welded(const RawModel& model, const Tolerance& tolerance, Mes
 /// Leaves out what the policy says, or says what could be left out.
 void tell_strays(std::vector<Index>& kept, std::vector<Vec3>& vertices, std::vector<Triangle>& triangles,
                  StrayPolicy policy, MeshFile& result, Monitor& monitor) {
-  const Strays strays = find_strays(vertices, triangles);
+  const Strays strays = find_strays(vertices, triangles, monitor);
   if (strays.points.empty()) return;
   const Vec3& p = vertices[static_cast<std::size_t>(strays.points[0])];
   const auto count = static_cast<std::int64_t>(strays.points.size());

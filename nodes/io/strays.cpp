@@ -27,7 +27,8 @@ std::pair<double, double> inner_range(std::vector<double>& values, std::size_t l
 
 }  // namespace
 
-Strays find_strays(std::span<const Vec3> points, std::span<const Triangle> triangles) {
+Strays find_strays(std::span<const Vec3> points, std::span<const Triangle> triangles, Monitor& monitor) {
+  Lookout look(monitor);
   Strays strays;
   if (points.size() < fewest_points) return strays;
   const std::size_t most = std::max<std::size_t>(1, points.size() / share);
@@ -35,18 +36,26 @@ Strays find_strays(std::span<const Vec3> points, std::span<const Triangle> trian
   std::vector<double> values(points.size());
   for (double Vec3::*const axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
     for (std::size_t i = 0; i < points.size(); ++i) values[i] = points[i].*axis;
+    look(values.size());
     std::tie(low.*axis, high.*axis) = inner_range(values, most);
+    look(16 * values.size());
   }
   const Vec3 middle = 0.5 * (low + high);
   strays.diagonal = distance(low, high);
   if (!(strays.diagonal > 0) || !std::isfinite(strays.diagonal)) return strays;
   std::vector<bool> is_far(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
+  look(points.size());
+  bool any = false;
+  for (std::size_t i = 0; i < points.size(); ++i) {
     is_far[i] = distance(points[i], middle) > far_away * strays.diagonal;
+    any = any || is_far[i];
+  }
+  if (!any) return strays;
   if (!triangles.empty()) {
     // What is connected with a point that is not far away is none.
     DisjointSets parts(points.size());
     for (const Triangle& t : triangles) {
+      look(16);
       parts.join(t[0], t[1]);
       parts.join(t[0], t[2]);
     }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/monitor.hpp"
 #include "types/triangle_mesh.hpp"
 
 namespace ballflow::geometry {
@@ -21,6 +22,7 @@ struct Strays {
 ///
 /// With triangles, points that a triangle joins with others are none: what is far away and connected is a
 /// part of the model. None for fewer than 16 points. Points are finite.
-Strays find_strays(std::span<const Vec3> points, std::span<const Triangle> triangles);
+Strays find_strays(std::span<const Vec3> points, std::span<const Triangle> triangles,
+                   Monitor& monitor = no_monitor());
 
 }  // namespace ballflow::geometry

@@ -102,7 +102,7 @@ Look look_at(const MeshFile& model, const LookOptions& options, Monitor& monitor
   const auto points = model.points.points.span();
   look.box = bounding_box(points);
   const TriangleMesh& mesh = model.mesh;
-  look.strays = find_strays(points, mesh.triangles.span());
+  look.strays = find_strays(points, mesh.triangles.span(), monitor);
   if (mesh.triangles.empty()) {
     look.spacing = spacing_of(points, monitor);
     return look;
