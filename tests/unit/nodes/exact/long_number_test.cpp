@@ -53,7 +53,8 @@ TEST(long_number, encloses_what_rational_numbers_say) {
   for (int i = 0; i < 2000; ++i) {
     const double a = random(), b = random(), c = random(), d = i % 3 == 0 ? a : random();
     const long bits = 64 + static_cast<long>(engine() % 100);
-    const auto value = [&](auto of) {
+    // Of the type of the numbers: an expression template would outlive what it refers to.
+    const auto value = [&](auto of) -> decltype(of(a)) {
       return (of(a) * of(b) - of(c) / of(d)) * (of(d) - of(a)) + of(c) * of(b);
     };
     const Rational exact = value([](double x) { return Rational(x); });
