@@ -252,7 +252,7 @@ CoverMatrix cover_matrix(const Balls& balls, const PointSet& points, const Cover
                          coordinates(points.points[static_cast<std::size_t>(first)]),
                      "enlarge the balls, or set uncovered to ball or report");
   } else if (options.uncovered == UncoveredPolicy::ball) {
-    monitor.warn(how_many(uncovered, n) + "; each got a ball of radius 0");
+    monitor.warn(how_many(uncovered, n) + "; each got a ball of radius 0, a component of its own");
     result.balls = with_points(balls, points, uncovered);
     for (const std::int32_t s : uncovered) {
       columns[total++] = s;
@@ -260,7 +260,8 @@ CoverMatrix cover_matrix(const Balls& balls, const PointSet& points, const Cover
     }
     uncovered.clear();
   } else {
-    monitor.warn(how_many(uncovered, n) + "; the cover will not contain them");
+    monitor.warn(how_many(uncovered, n) +
+                 ": they are left out and listed; sample more densely to cover them");
     result.balls = balls;
     std::vector<std::int32_t> number(n, -1);
     column_ids.clear();

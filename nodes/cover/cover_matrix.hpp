@@ -14,11 +14,11 @@ namespace ballflow::geometry {
 enum class UncoveredPolicy : std::uint8_t {
   ball,    // it gets a ball of radius 0 at its place
   error,   // InputError
-  report,  // it is left out of the matrix and listed in CoverState::uncovered
+  report,  // it is left out of the matrix and listed in CoverState::uncovered, where VerifyCover finds it
 };
 
 struct CoverMatrixOptions {
-  UncoveredPolicy uncovered = UncoveredPolicy::ball;
+  UncoveredPolicy uncovered = UncoveredPolicy::report;
   std::int64_t max_entries = 2'000'000'000;  // 4 bytes each; a larger matrix is refused before it is made
 };
 

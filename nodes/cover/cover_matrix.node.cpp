@@ -36,7 +36,8 @@ struct CoverMatrixNode {
             "the balls of the rows: the input, then one ball of radius 0 per sample in no ball (uncovered = "
             "ball)");
     d.choice("uncovered", &CoverMatrixNode::options, &CoverMatrixOptions::uncovered,
-             {{UncoveredPolicy::ball, "ball", "the sample gets a ball of radius 0, after all other balls"},
+             {{UncoveredPolicy::ball, "ball",
+               "the sample gets a ball of radius 0, after all other balls: a component of its own"},
               {UncoveredPolicy::error, "error", "the node fails and names the sample"},
               {UncoveredPolicy::report, "report", "the sample is left out and listed in the result"}})
         .doc("what becomes of a sample that lies in no ball");

@@ -5,6 +5,8 @@
 #include <atomic>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -163,7 +165,7 @@ std::string broken_condition(const CoverState& cover, std::size_t i, std::span<c
 }  // namespace
 
 CoverCheck verify_cover(const Balls& balls, const PointSet& points, const VerifyCoverOptions& options,
-                        Monitor& monitor) {
+                        Monitor& monitor, std::span<const std::int32_t> without_candidate) {
   require_coverable(balls, points);
   monitor.step(0);
   const std::size_t n = points.points.size();
@@ -188,18 +190,66 @@ CoverCheck verify_cover(const Balls& balls, const PointSet& points, const Verify
   std::erase_if(uncovered, [&](std::int32_t s) { return defines[static_cast<std::size_t>(s)] != 0; });
   monitor.step(1);
 
-  if (!uncovered.empty()) {
-    const std::string cause = std::to_string(uncovered.size()) + " of " + std::to_string(n) +
-                              " samples are in none of the " + std::to_string(balls.size()) +
-                              " balls, the first is sample " + std::to_string(uncovered.front()) + " at " +
-                              in_words(points.points[static_cast<std::size_t>(uncovered.front())]);
+  const auto describe = [&](std::span<const std::int32_t> samples, const char* what) {
+    return std::to_string(samples.size()) + " of " + std::to_string(n) + " samples " + what +
+           ", the first is sample " + std::to_string(samples.front()) + " at " +
+           in_words(points.points[static_cast<std::size_t>(samples.front())]);
+  };
+  std::vector<std::int32_t> missed;  // a ball could cover them
+  std::set_difference(uncovered.begin(), uncovered.end(), without_candidate.begin(), without_candidate.end(),
+                      std::back_inserter(missed));
+  if (!missed.empty()) {
+    const std::string cause =
+        describe(missed, ("are in none of the " + std::to_string(balls.size()) + " balls").c_str());
     if (options.on_uncovered == OnUncovered::error) {
       throw InputError(cause,
                        "check that the balls were chosen for these points, or set on_uncovered to report");
     }
     monitor.warn(cause);
   }
+  if (uncovered.size() > missed.size()) {
+    std::vector<std::int32_t> without;
+    std::set_difference(uncovered.begin(), uncovered.end(), missed.begin(), missed.end(),
+                        std::back_inserter(without));
+    monitor.warn(describe(without, "have no ball that could cover them"));
+  }
   return {static_cast<std::int64_t>(balls.size()), static_cast<std::int64_t>(n), std::move(uncovered)};
+}
+
+void verify_uncovered(const CoverState& cover, const Balls& candidates, const PointSet& points,
+                      Monitor& monitor) {
+  if (cover.uncovered.empty()) return;
+  const auto refuse = [](const std::string& cause) {
+    throw InputError(
+        "the cover lists samples without a candidate, and " + cause,
+        "connect the cover, the balls of its covering matrix and its points; else compute it again");
+  };
+  require_coverable(candidates, points);
+  std::vector<std::uint8_t> listed(points.points.size(), 0);
+  std::vector<Vec3> places;
+  for (const std::int32_t s : cover.uncovered) {
+    if (s < 0 || static_cast<std::size_t>(s) >= listed.size()) {
+      refuse("sample " + std::to_string(s) + " does not exist");
+    }
+    listed[static_cast<std::size_t>(s)] = 1;
+    places.push_back(points.points[static_cast<std::size_t>(s)]);
+  }
+  const auto covered = [&](std::size_t ball, std::int32_t sample) {
+    refuse("sample " + std::to_string(sample) + " is in ball " + std::to_string(ball));
+  };
+  const SampleGrid grid(places);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (i % 4096 == 0 && monitor.cancelled()) throw Cancelled();
+    for (const std::int32_t s : candidates.samples_of(i)) {
+      if (listed[static_cast<std::size_t>(s)] == 1) covered(i, s);
+    }
+    const double reach = squared_reach(candidates.radii[i]);
+    grid.near(candidates.centers[i], candidates.radii[i], [&](std::int32_t k) {
+      if (in_reach(candidates.centers[i], reach, places[static_cast<std::size_t>(k)])) {
+        covered(i, cover.uncovered[static_cast<std::size_t>(k)]);
+      }
+    });
+  }
 }
 
 std::int64_t verify_certificate(const CoverState& cover, const Balls& candidates, const PointSet& points,

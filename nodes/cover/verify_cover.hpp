@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "base/monitor.hpp"
 #include "types/balls.hpp"
@@ -24,9 +25,18 @@ struct VerifyCoverOptions {
 /// cover_matrix but the membership predicate, and what that is not asked for: samples that define a ball are
 /// in it.
 ///
+/// Samples in `without_candidate` (ascending, in range) are no error, whatever the options say; they are in
+/// the result when they are in no ball. verify_uncovered() checks that they have no candidate.
+///
 /// Accepts and refuses the coordinates and defining samples that cover_matrix does.
 CoverCheck verify_cover(const Balls& balls, const PointSet& points, const VerifyCoverOptions& options = {},
-                        Monitor& monitor = no_monitor());
+                        Monitor& monitor = no_monitor(),
+                        std::span<const std::int32_t> without_candidate = {});
+
+/// Checks from geometry that the samples in `cover.uncovered` lie in none of the candidates.
+/// Refused with InputError: one that does lie in a candidate, naming both; indices out of range.
+void verify_uncovered(const CoverState& cover, const Balls& candidates, const PointSet& points,
+                      Monitor& monitor = no_monitor());
 
 /// Checks the certificate of `cover` (see CoverState) from geometry: conditions (1) to (3) for
 /// `candidates`, the balls of the instance, and the samples in `points`. Nothing else of `cover` is believed.

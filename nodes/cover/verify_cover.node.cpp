@@ -28,7 +28,8 @@ struct VerifyCover {
         "lower "
         "bound: no ball may contain samples that cost more than 1 or belong to two groups, and every sample "
         "that has a price must lie in a ball. A certificate that breaks this is refused. Covering the "
-        "samples is not covering the surface between them.");
+        "samples is not covering the surface between them. Samples that the cover lists because no candidate "
+        "contains them are checked to be so, listed, and no error.");
     d.avoid_when("the error between samples is asked: it looks at the samples alone");
     d.cites("kornberger2010", "3.6.1");
     d.input("balls", &VerifyCover::balls).doc("the selected balls");
@@ -54,8 +55,12 @@ struct VerifyCover {
       throw InputError("only one of cover and candidates is connected",
                        "connect both to check a certificate, or none");
     }
-    CoverCheck result = verify_cover(*balls, *points, options, monitor);
-    if (cover) {
+    CoverCheck result;
+    if (!cover) {
+      result = verify_cover(*balls, *points, options, monitor);
+    } else {
+      verify_uncovered(*cover, *candidates, *points, monitor);
+      result = verify_cover(*balls, *points, options, monitor, cover->uncovered.span());
       result.certified_bound = verify_certificate(*cover, *candidates, *points, monitor);
     }
     check = std::move(result);

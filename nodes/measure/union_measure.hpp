@@ -16,10 +16,14 @@
 // divergence theorem on the sphere for the tangential parts of constant, linear and quadratic fields.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "base/monitor.hpp"
 #include "types/mass_properties.hpp"
 #include "types/power_diagram.hpp"
 #include "types/simplicial_complex.hpp"
+#include "types/triangle_mesh.hpp"
 
 namespace ballflow::geometry {
 
@@ -33,5 +37,20 @@ MassProperties union_measure(const SimplicialComplex& complex, Monitor& monitor 
 /// is another one.
 MassProperties union_measure(const SimplicialComplex& complex, const PowerDiagram& diagram,
                              Monitor& monitor = no_monitor());
+
+struct SolidVolumeOptions {
+  double tolerance = 5;  // % of the volume of the solid: a larger difference is worth a warning
+};
+
+/// The volume of the solid inside a mesh, by the divergence theorem, and how far that of a union is off.
+struct SolidVolume {
+  double volume = 0;    // cubed model units
+  double error = 0;     // (union - solid) / solid
+  std::string warning;  // why to worry and what to do, in words; or empty
+};
+/// Nothing where the mesh is not closed or has no volume. What shells inside
+/// each other wind around twice counts once, where the surface crosses itself twice.
+std::optional<SolidVolume> compare_volume(const MassProperties& of_union, const TriangleMesh& solid,
+                                          const SolidVolumeOptions& options, Monitor& monitor = no_monitor());
 
 }  // namespace ballflow::geometry

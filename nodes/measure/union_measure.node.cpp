@@ -1,6 +1,7 @@
 #include "measure/union_measure.hpp"
 
 #include <ballflow/sdk.hpp>
+#include <utility>
 
 #include "exact/cgal_version.hpp"
 #include "types/power_diagram_type.hpp"
@@ -11,7 +12,9 @@ namespace {
 struct UnionMeasure {
   In<geometry::SimplicialComplex> complex;
   In<geometry::PowerDiagram> diagram;
+  In<geometry::TriangleMesh> mesh;
   Out<geometry::MassProperties> measure;
+  geometry::SolidVolumeOptions options;
 
   static void declare(NodeDecl<UnionMeasure>& d) {
     d.id("UnionMeasure", 2).summary("Volume, area, centre of mass and inertia tensor of a union of balls.");
@@ -28,12 +31,30 @@ struct UnionMeasure {
     d.input("diagram", &UnionMeasure::diagram)
         .optional()
         .doc("the power diagram that the alpha-shape was read off: nothing is searched in it again");
-    d.output("measure", &UnionMeasure::measure).doc("at density 1, in powers of model units");
+    d.input("mesh", &UnionMeasure::mesh)
+        .optional()
+        .doc("the solid that the union stands for: where it is closed its exact volume is compared with");
+    d.output("measure", &UnionMeasure::measure)
+        .doc(
+            "at density 1, in powers of model units; with a closed mesh the summary adds solid_volume and "
+            "volume_error, (union - solid) / solid");
+    d.param("tolerance", &UnionMeasure::options, &geometry::SolidVolumeOptions::tolerance)
+        .unit("% of the volume of the solid")
+        .at_least(0)
+        .doc("a union whose volume is farther off is a warning");
   }
   void run(RunContext& context) {
     ContextMonitor monitor(context);
-    measure = diagram ? geometry::union_measure(*complex, *diagram, monitor)
-                      : geometry::union_measure(*complex, monitor);
+    geometry::MassProperties result = diagram ? geometry::union_measure(*complex, *diagram, monitor)
+                                              : geometry::union_measure(*complex, monitor);
+    if (mesh) {
+      if (const auto solid = geometry::compare_volume(result, *mesh, options, monitor)) {
+        measure.summary("solid_volume", solid->volume);
+        measure.summary("volume_error", solid->error);
+        if (!solid->warning.empty()) monitor.warn(solid->warning);
+      }
+    }
+    measure = std::move(result);
   }
 };
 

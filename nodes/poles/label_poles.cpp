@@ -38,22 +38,6 @@ void check_mesh(const TriangleMesh& mesh) {
   }
 }
 
-// Why the mesh has no well-defined inside everywhere.
-std::string why_not_closed(const SurfaceChain& chain, const TriangleMesh& mesh) {
-  if (chain.triangles.empty()) return "the mesh has only triangles with a repeated corner";
-  if (chain.boundary_edges > 0) {
-    const std::int64_t loops = mesh_topology(mesh).boundary_loops;
-    return "the mesh is open: " + std::to_string(chain.boundary_edges) + " boundary edges in " +
-           std::to_string(loops) + " loops";
-  }
-  if (chain.contradictions > 0) {
-    return "the mesh is not orientable: at " + std::to_string(chain.contradictions) +
-           " edges the two triangles face opposite ways however they are turned";
-  }
-  return "the mesh is not closed: " + std::to_string(chain.nonmanifold_edges) +
-         " edges belong to more than two triangles, which face one way more often than the other";
-}
-
 Balls select_label(const PoleSet& poles, std::uint8_t label, OuterBalls which = OuterBalls::all) {
   std::vector<Vec3> centers;
   std::vector<double> radii;
@@ -234,7 +218,8 @@ LabelledPoles label_poles(const PoleSet& poles, const TriangleMesh& mesh, const 
   result.poles.labels = std::move(labels);
 
   counts = {};
-  kept = is_pole(result.poles);
+  const bool all = options.vertices == Vertices::all || (closed && options.vertices == Vertices::automatic);
+  kept = all ? std::vector<std::uint8_t>(poles.size(), 1) : is_pole(result.poles);
   for (std::size_t i = 0; i < poles.size(); ++i) {
     if (kept[i] == 0) continue;
     const double number = sign * values[i].number;

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "base/monitor.hpp"
+#include "poles/voronoi_poles.hpp"
 #include "types/balls.hpp"
 #include "types/pole_set.hpp"
 #include "types/triangle_mesh.hpp"
@@ -24,12 +25,13 @@ enum class OuterBalls : std::uint8_t {
 struct LabelPolesOptions {
   LabelMethod method = LabelMethod::automatic;
   OuterBalls outer = OuterBalls::all;
+  Vertices vertices = Vertices::poles;  // which entries of the set are balls: poles only, or all of them
 };
 
 struct LabelledPoles {
-  PoleSet poles;  // labelled, with third poles, without the other candidates
-  Balls inner;    // polar balls of the inner poles, in their order: the discrete medial axis transform
-  Balls outer;    // those of the outer poles, all of them or the bounded ones
+  PoleSet poles;  // labelled, with third poles; with Vertices::poles without the other candidates
+  Balls inner;    // balls of the inner entries, in their order: the discrete medial axis transform
+  Balls outer;    // those of the outer entries, all of them or the bounded ones
 
   LabelMethod method = LabelMethod::mesh;  // what was used: mesh, winding or angle
   // Poles whose label says little (of the poles that are in the result): winding number in [1/4, 3/4], or
@@ -57,6 +59,9 @@ struct LabelledPoles {
 /// of its cell with the other label, among the poles and candidates of the set, becomes its third pole. Equal
 /// radii are decided by the coordinates of the centres. A sample has poles on one side only when no listed
 /// vertex of its cell is on the other.
+///
+/// Vertices::all keeps the entries that are poles of no sample, labelled like the others, and their balls;
+/// automatic does where the mesh is closed. Method angle knows nothing of them and drops them.
 ///
 /// Unbounded poles are outer. A pole exactly on the surface is outer.
 ///

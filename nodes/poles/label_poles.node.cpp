@@ -11,6 +11,7 @@ namespace {
 using geometry::LabelMethod;
 using geometry::LabelPolesOptions;
 using geometry::OuterBalls;
+using geometry::Vertices;
 
 struct LabelPoles {
   In<geometry::PoleSet> poles;
@@ -48,11 +49,11 @@ struct LabelPoles {
         .optional()
         .doc("triangles of the surface that was sampled, in the same coordinates; not for method angle");
     d.output("poles", &LabelPoles::labelled)
-        .doc("the poles, labelled, with third poles, without the other candidates");
+        .doc("the poles, labelled, with third poles; with vertices = poles without the other candidates");
     d.output("inner", &LabelPoles::inner)
-        .doc("polar balls of the inner poles with the samples they pass through");
+        .doc("balls of the inner vertices with the samples they pass through");
     d.output("outer", &LabelPoles::outer)
-        .doc("polar balls of the outer poles, those of unbounded poles included or not");
+        .doc("balls of the outer vertices, those of unbounded poles included or not");
     d.choice("method", &LabelPoles::options, &LabelPolesOptions::method,
              {{LabelMethod::automatic, name(LabelMethod::automatic),
                "mesh when the mesh is closed, angle without triangles, else winding, with a warning"},
@@ -68,6 +69,11 @@ struct LabelPoles {
               {OuterBalls::bounded, "bounded",
                "only balls that samples bound, for the medial axis of the outside"}})
         .doc("which balls the output outer has");
+    d.choice("vertices", &LabelPoles::options, &LabelPolesOptions::vertices,
+             {{Vertices::automatic, "auto", "all with a closed mesh, else poles"},
+              {Vertices::poles, "poles", "the poles of samples only (thesis, 3.4)"},
+              {Vertices::all, "all", "every Voronoi vertex that VoronoiPoles listed; method angle: poles"}})
+        .doc("which Voronoi vertices become balls");
   }
   void run(RunContext& context) {
     ContextMonitor monitor(context);

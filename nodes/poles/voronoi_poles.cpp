@@ -16,6 +16,7 @@
 
 #include "base/lists.hpp"
 #include "poles/voronoi_diagram.hpp"
+#include "search/surface_chain.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -59,6 +60,8 @@ class Choice {
   const SamplePoles& farthest() const { return farthest_; }
   /// Per cell that stands for a Voronoi vertex, 1 for poles and for candidates.
   std::vector<std::uint8_t> poles_and_candidates() const;
+  /// Per cell that stands for a Voronoi vertex, 1 for poles and for all that are bounded.
+  std::vector<std::uint8_t> poles_and_bounded() const;
 
  private:
   bool bounded(std::size_t cell) const { return diagram_.unbounded[at(diagram_.vertex[cell])] == 0; }
@@ -126,6 +129,19 @@ std::vector<std::uint8_t> Choice::poles_and_candidates() const {
       if (diagram_.is_sample(s) && blunt[at(s)] == 1 && is_behind(at(s), cell)) raise(flag);
     }
   });
+  return kept;
+}
+
+std::vector<std::uint8_t> Choice::poles_and_bounded() const {
+  std::vector<std::uint8_t> kept(diagram_.size(), 0);
+  for (std::size_t cell = 0; cell < kept.size(); ++cell) {
+    if (bounded(cell)) kept[at(diagram_.vertex[cell])] = 1;
+  }
+  for (const auto& poles : farthest_) {
+    for (const std::int32_t pole : poles) {
+      if (pole >= 0) kept[at(pole)] = 1;
+    }
+  }
   return kept;
 }
 
@@ -261,7 +277,14 @@ PoleSet voronoi_poles(const PointSet& sample, const VoronoiPolesOptions& options
   }
   const VoronoiDiagram diagram = voronoi_diagram(sample, options.bounding_distance, monitor);
   const Choice choice(diagram, monitor);
-  return Collection(diagram, choice.poles_and_candidates(), monitor).poles(choice.farthest());
+  const auto kept =
+      options.vertices == Vertices::all ? choice.poles_and_bounded() : choice.poles_and_candidates();
+  return Collection(diagram, kept, monitor).poles(choice.farthest());
+}
+
+Vertices decide(Vertices vertices, const TriangleMesh& mesh) {
+  if (vertices != Vertices::automatic) return vertices;
+  return surface_chain(mesh).closed() ? Vertices::all : Vertices::poles;
 }
 
 }  // namespace ballflow::geometry

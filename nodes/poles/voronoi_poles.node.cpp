@@ -8,10 +8,12 @@
 namespace ballflow::nodes {
 namespace {
 
+using geometry::Vertices;
 using geometry::VoronoiPolesOptions;
 
 struct VoronoiPoles {
   In<geometry::PointSet> points;
+  In<geometry::TriangleMesh> mesh;
   Out<geometry::PoleSet> poles;
   VoronoiPolesOptions options;
 
@@ -22,7 +24,10 @@ struct VoronoiPoles {
         "The first pole of a sample is the vertex of its Voronoi cell farthest from it, the second the "
         "farthest behind that. Where they are less than 138.6 degrees apart, as at sharp edges, both may be "
         "on one side of the surface: all bounded vertices behind the first are kept as candidates, among "
-        "which LabelPoles finds a third pole on the other side. Far-away points around the sample bound all "
+        "which LabelPoles finds a third pole on the other side. With vertices = all every bounded vertex is "
+        "in "
+        "the result: the balls of all inner ones have no holes inside, however thin the solid. Far-away "
+        "points around the sample bound all "
         "cells; Voronoi vertices that depend on them lie well outside the bounding box and are marked "
         "unbounded. Vertices that coincide exactly (five and more cospherical samples) are one. Accepts any "
         "distinct points that are not all in one plane; refuses fewer than 4 points, equal points and "
@@ -34,8 +39,16 @@ struct VoronoiPoles {
     d.library("CGAL", geometry::cgal_version());
     d.memory(1 << 20, 40);
     d.input("points", &VoronoiPoles::points).doc("n points on a surface, model units");
+    d.input("mesh", &VoronoiPoles::mesh)
+        .optional()
+        .doc("the surface that was sampled; only whether it is closed matters, to vertices = auto");
     d.output("poles", &VoronoiPoles::poles)
         .doc("the distinct poles and the candidates, not labelled, and the two poles of every sample");
+    d.choice("vertices", &VoronoiPoles::options, &VoronoiPolesOptions::vertices,
+             {{Vertices::automatic, "auto", "all with a closed mesh, else poles"},
+              {Vertices::poles, "poles", "poles, and candidates where both may be on one side (thesis, 3.4)"},
+              {Vertices::all, "all", "poles and all bounded vertices: about seven for a sample, both sides"}})
+        .doc("which Voronoi vertices are in the result");
     d.param("bounding_distance", &VoronoiPoles::options, &VoronoiPolesOptions::bounding_distance)
         .unit("longest bounding-box edges")
         .at_least(4)
@@ -46,6 +59,7 @@ struct VoronoiPoles {
   }
   void run(RunContext& context) {
     ContextMonitor monitor(context);
+    options.vertices = geometry::decide(options.vertices, mesh ? *mesh : geometry::TriangleMesh{});
     poles = geometry::voronoi_poles(*points, options, monitor);
   }
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "base/disjoint_sets.hpp"
@@ -152,6 +153,21 @@ SurfaceChain surface_chain(const TriangleMesh& mesh) {
     for (std::int64_t k = 0; k < -sum; ++k) chain.boundary.push_back({v, u});
   });
   return chain;
+}
+
+std::string why_not_closed(const SurfaceChain& chain, const TriangleMesh& mesh) {
+  if (chain.triangles.empty()) return "the mesh has only triangles with a repeated corner";
+  if (chain.boundary_edges > 0) {
+    const std::int64_t loops = mesh_topology(mesh).boundary_loops;
+    return "the mesh is open: " + std::to_string(chain.boundary_edges) + " boundary edges in " +
+           std::to_string(loops) + " loops";
+  }
+  if (chain.contradictions > 0) {
+    return "the mesh is not orientable: at " + std::to_string(chain.contradictions) +
+           " edges the two triangles face opposite ways however they are turned";
+  }
+  return "the mesh is not closed: " + std::to_string(chain.nonmanifold_edges) +
+         " edges belong to more than two triangles, which face one way more often than the other";
 }
 
 }  // namespace ballflow::geometry

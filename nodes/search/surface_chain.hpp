@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "types/triangle_mesh.hpp"
@@ -33,5 +34,8 @@ struct SurfaceChain {
 
 /// Precondition: broken_invariant(mesh) is empty.
 SurfaceChain surface_chain(const TriangleMesh& mesh);
+
+/// Why the chain of a mesh has no well-defined inside everywhere, in words. Precondition: it is not closed.
+std::string why_not_closed(const SurfaceChain& chain, const TriangleMesh& mesh);
 
 }  // namespace ballflow::geometry

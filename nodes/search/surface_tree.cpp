@@ -64,30 +64,31 @@ bool meets(const Box& box, Vec3 origin, Vec3 direction, double from, double to) 
 }  // namespace
 
 SurfaceTree::SurfaceTree(const TriangleMesh& mesh, Monitor& monitor)
-    : mesh_(mesh),
-      tree_(boxes_of(mesh.vertices.span(), mesh.triangles.span()), BoxTree::default_leaf_size, monitor) {}
-
-std::array<Vec3, 3> SurfaceTree::corners(std::size_t triangle) const {
-  const auto [a, b, c] = mesh_.triangles[triangle];
-  const auto vertex = [&](std::int32_t v) { return mesh_.vertices[static_cast<std::size_t>(v)]; };
-  return {vertex(a), vertex(b), vertex(c)};
-}
-
-Vec3 SurfaceTree::normal(std::int32_t triangle) const {
-  const auto [a, b, c] = corners(static_cast<std::size_t>(triangle));
-  const Vec3 n = cross(b - a, c - a);
-  const double norm = length(n);
-  return norm > 0 ? (1 / norm) * n : Vec3{};
+    : tree_(boxes_of(mesh.vertices.span(), mesh.triangles.span()), 4, monitor) {
+  triangles_.reserve(mesh.triangles.size());
+  const auto vertex = [&](std::int32_t v) { return mesh.vertices[static_cast<std::size_t>(v)]; };
+  for (const auto& [u, v, w] : mesh.triangles) {
+    const std::array<Vec3, 3> corners{vertex(u), vertex(v), vertex(w)};
+    const Vec3 n = cross(corners[1] - corners[0], corners[2] - corners[0]);
+    const double norm = length(n);
+    triangles_.push_back({corners, norm > 0 ? (1 / norm) * n : Vec3{}});
+  }
 }
 
 std::optional<SurfacePoint> SurfaceTree::nearest(Vec3 p, double limit) const {
   std::optional<SurfacePoint> best;
+  double least = limit;
   tree_.smallest(p, limit, -1, [&](std::size_t i) {
-    const Vec3 q = nearest_on_triangle(p, corners(i));
+    const Item& item = triangles_[i];
+    // Most triangles of a leaf are in planes that are too far away already.
+    if (std::abs(dot(p - item.corners[0], item.normal)) * (1 - 1e-12) > least) return limit;
+    const Vec3 q = nearest_on_triangle(p, item.corners);
     const double d = distance(p, q);
-    const double least = best ? best->distance : limit;
     const auto number = static_cast<std::int32_t>(i);
-    if (d < least || (best && d == least && number < best->triangle)) best = {q, number, d};
+    if (d < least || (best && d == least && number < best->triangle)) {
+      best = {q, number, d};
+      least = d;
+    }
     return d;
   });
   return best;
@@ -111,7 +112,7 @@ void SurfaceTree::along(Vec3 origin, Vec3 direction, double from, double to, con
     }
     for (std::int32_t k = node.first; k < node.last; ++k) {
       const std::int32_t triangle = tree_.order()[static_cast<std::size_t>(k)];
-      const auto t = meeting(origin, direction, corners(static_cast<std::size_t>(triangle)));
+      const auto t = meeting(origin, direction, triangles_[static_cast<std::size_t>(triangle)].corners);
       if (t && *t > from && *t < to) visit(triangle, *t, to);
     }
   }

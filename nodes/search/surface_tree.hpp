@@ -1,6 +1,7 @@
 // The triangles of a surface: the point of it next to a point, and where rays meet it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -23,7 +24,7 @@ struct SurfacePoint {
 /// question.
 class SurfaceTree {
  public:
-  /// Any triangles with finite corners, degenerate ones too, fewer than 2^31. `mesh` must outlive the tree.
+  /// Any triangles with finite corners, degenerate ones too, fewer than 2^31.
   explicit SurfaceTree(const TriangleMesh& mesh, Monitor& monitor = no_monitor());
 
   /// The point of the surface next to p, when it is nearer than `limit`.
@@ -37,14 +38,17 @@ class SurfaceTree {
 
   /// The normal of a triangle, of length 1; 0 for one without area. It points to where the triangle is seen
   /// counter-clockwise.
-  Vec3 normal(std::int32_t triangle) const;
+  Vec3 normal(std::int32_t triangle) const { return triangles_[static_cast<std::size_t>(triangle)].normal; }
 
  private:
-  std::array<Vec3, 3> corners(std::size_t triangle) const;
+  struct Item {
+    std::array<Vec3, 3> corners;
+    Vec3 normal;
+  };
   template <class Visit>
   void along(Vec3 origin, Vec3 direction, double from, double to, const Visit& visit) const;
 
-  const TriangleMesh& mesh_;
+  std::vector<Item> triangles_;
   BoxTree tree_;
 };
 

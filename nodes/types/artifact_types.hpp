@@ -20,6 +20,7 @@
 #include "types/minkowski_report.hpp"
 #include "types/point_set.hpp"
 #include "types/pole_set.hpp"
+#include "types/refinement.hpp"
 #include "types/simplicial_complex.hpp"
 #include "types/topology_check.hpp"
 #include "types/topology_table.hpp"

@@ -9,4 +9,4 @@ BALLFLOW_PLUGIN(
     "types", "0.1.0", ballflow::node_entries<>(),
     (ballflow::type_entries<Balls, Bisection, Comparison, CoverCheck, CoverState, Growth, LocalFeatureSize,
                             MassProperties, MedialAxis, MinkowskiReport, PointSet, PoleSet, PowerDiagram,
-                            SimplicialComplex, TopologyCheck, TopologyTable, TriangleMesh>()))
+                            Refinement, SimplicialComplex, TopologyCheck, TopologyTable, TriangleMesh>()))

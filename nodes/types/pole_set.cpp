@@ -129,9 +129,7 @@ std::string broken_invariant(const PoleSet& poles) {
   const std::vector<std::uint8_t> pole = is_pole(poles);
   for (std::size_t i = 0; i < poles.size(); ++i) {
     if (pole[i] == 1) continue;
-    const std::string candidate = pole_name(i) + " is the pole of no sample, and ";
-    if (poles.unbounded[i] == 1) return candidate + "unbounded";
-    if (poles.labels[i] != unlabelled) return candidate + "labelled";
+    if (poles.unbounded[i] == 1) return pole_name(i) + " is the pole of no sample, and unbounded";
   }
   return {};
 }

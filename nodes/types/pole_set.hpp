@@ -14,9 +14,10 @@ namespace ballflow::geometry {
 enum class PoleLabel : std::uint8_t { unlabelled = 0, inner = 1, outer = 2 };
 
 struct PoleSet {
-  // One entry per Voronoi VERTEX that is a pole of at least one sample, or a candidate: a bounded vertex of
-  // the cell of a sample whose first two poles may lie on one side of the surface. LabelPoles chooses third
-  // poles among the candidates, and drops the others. Vertices that coincide exactly (five and more
+  // One entry per Voronoi VERTEX that is a pole of at least one sample, or a candidate: a bounded vertex,
+  // either of the cell of a sample whose first two poles may lie on one side of the surface, or any (see
+  // VoronoiPoles, vertices). LabelPoles chooses third poles among the candidates, and drops or keeps the
+  // others. Vertices that coincide exactly (five and more
   // cospherical samples) are one entry. Sorted by their smallest defining samples.
   Array<Vec3> centers;  // p x 3, model units; finite
   Array<double> radii;  // p, distance to the defining samples

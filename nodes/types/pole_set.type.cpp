@@ -10,7 +10,7 @@ void TypeOf<geometry::PoleSet>::declare(TypeDecl<geometry::PoleSet>& d) {
   using T = geometry::PoleSet;
   d.id("PoleSet", 1)
       .doc(
-          "Voronoi vertices that are poles of samples, or candidates for third poles, and the poles of "
+          "Voronoi vertices that are poles of samples, other bounded ones beside them, and the poles of "
           "samples.");
   d.array("centers", &T::centers).length("p").doc("Voronoi vertices, model units");
   d.array("radii", &T::radii).length("p").doc("distance to the defining samples, model units");
@@ -26,8 +26,8 @@ void TypeOf<geometry::PoleSet>::declare(TypeDecl<geometry::PoleSet>& d) {
           "poles of each sample, -1 for none: the farthest vertex of its cell, the farthest behind it, and, "
           "where the labels of both are the same, the farthest with the other label");
   d.summary("samples", "number of samples").summary("poles", "number of distinct poles");
-  d.summary("candidates", "vertices that are no pole; LabelPoles chooses third poles among them");
-  d.summary("inner", "poles labelled inner").summary("outer", "poles labelled outer");
+  d.summary("candidates", "other vertices; LabelPoles chooses third poles among them");
+  d.summary("inner", "entries labelled inner").summary("outer", "entries labelled outer");
   d.summarize([](const T& v) {
     std::int64_t count[3] = {0, 0, 0};
     for (const std::uint8_t label : v.labels) ++count[label < 3 ? label : 0];

@@ -17,6 +17,7 @@ struct CoverCheck;
 struct Comparison;
 struct MassProperties;
 struct MinkowskiReport;
+struct Refinement;
 struct SimplicialComplex;
 struct TopologyCheck;
 struct TopologyTable;
@@ -83,6 +84,11 @@ struct TypeOf<geometry::MassProperties> {
 template <>
 struct TypeOf<geometry::MinkowskiReport> {
   static void declare(TypeDecl<geometry::MinkowskiReport>& d);
+};
+
+template <>
+struct TypeOf<geometry::Refinement> {
+  static void declare(TypeDecl<geometry::Refinement>& d);
 };
 
 template <>

@@ -124,7 +124,7 @@ TEST(cover_matrix, gives_an_uncovered_sample_a_ball_of_radius_zero) {
   const Balls balls{{{0, 0, 0}}, {1}, {0, 1}, {1}};
   const PointSet points{{{3, 0, 0}, {0, 0.5, 0}, {4, 0, 0}}, {}};
   Warnings warnings;
-  const CoverMatrix matrix = cover_matrix(balls, points, {}, warnings);
+  const CoverMatrix matrix = cover_matrix(balls, points, {.uncovered = UncoveredPolicy::ball}, warnings);
   EXPECT_EQ(broken_invariant(matrix.cover), "");
   EXPECT_EQ(row_sets(matrix.cover), (Sets{{1}, {0}, {2}}));
   EXPECT_EQ(matrix.cover.balls, 3);
@@ -170,7 +170,8 @@ TEST(cover_matrix, accepts_no_balls_and_no_samples) {
   EXPECT_EQ(nothing.cover.lower_bound, 0);
   const CoverMatrix only_samples = cover_matrix({}, {{{0, 0, 0}, {1, 0, 0}}, {}});
   EXPECT_EQ(broken_invariant(only_samples.cover), "");
-  EXPECT_EQ(only_samples.balls.size(), 2u);
+  EXPECT_EQ(only_samples.balls.size(), 0u);
+  EXPECT_EQ(only_samples.cover.uncovered.size(), 2u);
   const CoverMatrix only_balls = cover_matrix({{{0, 0, 0}}, {1}, {}, {}}, {});
   EXPECT_EQ(broken_invariant(only_balls.cover), "");
   EXPECT_EQ(only_balls.cover.rows(), 1u);

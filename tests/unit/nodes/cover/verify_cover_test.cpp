@@ -58,6 +58,35 @@ TEST(verify_cover, counts_defining_samples_as_covered) {
   EXPECT_TRUE(verify_cover({{{0, 0, 0}}, {1}, {0, 1}, {1}}, points).uncovered.empty());
 }
 
+TEST(verify_cover, a_sample_without_a_candidate_is_told_and_no_error) {
+  const Balls balls{{{0, 0, 0}}, {1}, {}, {}};
+  const PointSet points{{{3, 0, 0}, {0, 0.5, 0}}, {}};
+  const CoverMatrix matrix = cover_matrix(balls, points);
+  EXPECT_EQ(matrix.cover.uncovered, (Array<std::int32_t>{0}));
+  verify_uncovered(matrix.cover, balls, points);
+  const CoverCheck check = verify_cover(balls, points, {}, no_monitor(), matrix.cover.uncovered.span());
+  EXPECT_EQ(check.uncovered, (Array<std::int32_t>{0}));
+  // The other one has a candidate: without it the check fails whatever else is excused.
+  EXPECT_THROW(verify_cover({}, points, {}, no_monitor(), matrix.cover.uncovered.span()), InputError);
+}
+
+TEST(verify_cover, a_cover_that_lists_a_sample_with_a_candidate_is_refused) {
+  const PointSet points{{{3, 0, 0}, {0, 0.5, 0}}, {}};
+  const Balls balls{{{0, 0, 0}}, {1}, {}, {}}, defined{{{9, 9, 9}}, {1}, {0, 1}, {1}};
+  CoverState cover = cover_matrix(balls, points).cover;
+  cover.uncovered = {0, 1};
+  for (const Balls& candidates : {balls, defined}) {
+    try {
+      verify_uncovered(cover, candidates, points);
+      FAIL() << "sample 1 has a candidate";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("sample 1 is in ball 0"), std::string::npos) << error.what();
+    }
+  }
+  cover.uncovered = {7};
+  EXPECT_THROW(verify_uncovered(cover, balls, points), InputError);
+}
+
 TEST(verify_cover, names_the_first_uncovered_sample) {
   try {
     verify_cover({{{0, 0, 0}}, {1}, {}, {}}, {{{0, 0, 0}, {5, 0, 0}, {6, 0, 0}}, {}});

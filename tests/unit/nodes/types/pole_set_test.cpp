@@ -79,10 +79,6 @@ TEST(pole_set, names_the_broken_invariant) {
     p.labels = {0, 0};
     p.sample_poles = {{0, -1, -1}, {1, -1, 0}, {0, -1, -1}, {0, -1, -1}, {1, -1, -1}};
   });
-  const std::vector<std::array<std::int32_t, 3>> without_pole_0 = {
-      {-1, -1, -1}, {1, -1, -1}, {-1, -1, -1}, {-1, -1, -1}, {1, -1, -1}};
-  expect("pole 0 is the pole of no sample, and labelled",
-         [&](PoleSet& p) { p.sample_poles = without_pole_0; });
   expect("pole 1 is the pole of no sample, and unbounded", [](PoleSet& p) {
     p.labels = {0, 0};
     p.sample_poles = {{0, -1, -1}, {0, -1, -1}, {0, -1, -1}, {0, -1, -1}, {-1, -1, -1}};
