@@ -30,6 +30,9 @@ struct CacheCliTest : testing::Test {
   }
   ProcessResult run(std::vector<std::string> more = {}) {
     std::vector<std::string> arguments{"run",      test::source_file("graphs/medial_axis.json"),
+                                       "--set",    "sampling=vertices",
+                                       "--set",    "growth=additive",
+                                       "--set",    "repair=none",
                                        "--set",    "input=shape:torus?n=1000",
                                        "--out",    folder.file("out"),
                                        "--report", folder.file("report.json")};

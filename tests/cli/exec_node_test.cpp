@@ -82,26 +82,29 @@ struct ExecNodeTest : testing::Test {
 TEST_F(ExecNodeTest, a_failed_source_can_be_repeated_whatever_its_file_is_called) {
   const std::string name = folder.file("it's a \"$(scan)\" \n \\ \xc3\xa4.off");
   test::write_file(name, "OFF\n1 1 0\n0 0 zero\n");
-  const ProcessResult failed =
-      expect_repeatable({"run", test::source_file("graphs/dmt.json"), "--set", "input=" + name}, "vertex 0");
-  EXPECT_NE(failed.err.find("node sample (Sample) failed"), std::string::npos) << failed.err;
+  const ProcessResult failed = expect_repeatable(
+      {"run", test::source_file("graphs/dmt.json"), "--set", "sampling=vertices", "--set", "input=" + name},
+      "vertex 0");
+  EXPECT_NE(failed.err.find("node sampling/sample (Sample) failed"), std::string::npos) << failed.err;
   EXPECT_NE(failed.err.find("what to do: "), std::string::npos) << failed.err;
   EXPECT_NE(failed.err.find("  param count = "), std::string::npos) << failed.err;
   EXPECT_NE(failed.err.find("again, from this node on: "), std::string::npos) << failed.err;
 }
 
 TEST_F(ExecNodeTest, a_file_that_is_absent_fails_the_same_way_alone) {
-  expect_repeatable({"run", test::source_file("graphs/dmt.json"), "--set", "input=" + folder.file("no.off")},
+  expect_repeatable({"run", test::source_file("graphs/dmt.json"), "--set", "sampling=vertices", "--set",
+                     "input=" + folder.file("no.off")},
                     "No such file");
 }
 
 TEST_F(ExecNodeTest, a_failed_node_names_its_inputs_and_gets_them_from_the_cache) {
   test::write_file(folder.file("open.off"), open_box);
-  const ProcessResult failed = expect_repeatable({"run", test::source_file("graphs/dmt.json"), "--set",
-                                                  "input=" + folder.file("open.off"), "--set", "labels=mesh"},
-                                                 "close the mesh");
-  EXPECT_NE(failed.err.find("node label (LabelPoles) failed"), std::string::npos) << failed.err;
-  const std::string mesh = line_with(failed.err, "  input mesh = sample.mesh");
+  const ProcessResult failed =
+      expect_repeatable({"run", test::source_file("graphs/dmt.json"), "--set", "sampling=vertices", "--set",
+                         "input=" + folder.file("open.off"), "--set", "labels=mesh"},
+                        "close the mesh");
+  EXPECT_NE(failed.err.find("node sampling/label (LabelPoles) failed"), std::string::npos) << failed.err;
+  const std::string mesh = line_with(failed.err, "  input mesh = sampling/sample.mesh");
   EXPECT_NE(mesh.find("sha256 "), std::string::npos) << failed.err;
   const std::string command = command_in(failed.err);
   EXPECT_NE(command.find("exec-node LabelPoles"), std::string::npos) << command;
@@ -115,8 +118,8 @@ TEST_F(ExecNodeTest, a_failed_node_names_its_inputs_and_gets_them_from_the_cache
 TEST_F(ExecNodeTest, without_a_cache_the_message_says_that_the_inputs_are_gone) {
   test::write_file(folder.file("open.off"), open_box);
   const ProcessResult failed =
-      ballflow({"run", test::source_file("graphs/dmt.json"), "--set", "input=" + folder.file("open.off"),
-                "--set", "labels=mesh", "--no-cache"});
+      ballflow({"run", test::source_file("graphs/dmt.json"), "--set", "sampling=vertices", "--set",
+                "input=" + folder.file("open.off"), "--set", "labels=mesh", "--no-cache"});
   EXPECT_EQ(failed.exit_code, 3);
   EXPECT_NE(failed.err.find("it cannot be run alone: its input mesh is not stored (--no-cache)"),
             std::string::npos)
@@ -124,9 +127,9 @@ TEST_F(ExecNodeTest, without_a_cache_the_message_says_that_the_inputs_are_gone) 
   EXPECT_EQ(command_in(failed.err), "");
   // What has no inputs needs no cache.
   test::write_file(folder.file("bad.off"), "OFF\n1 1 0\n0 0 zero\n");
-  expect_repeatable(
-      {"run", test::source_file("graphs/dmt.json"), "--no-cache", "--set", "input=" + folder.file("bad.off")},
-      "vertex 0");
+  expect_repeatable({"run", test::source_file("graphs/dmt.json"), "--set", "sampling=vertices", "--no-cache",
+                     "--set", "input=" + folder.file("bad.off")},
+                    "vertex 0");
   EXPECT_FALSE(fs::exists(folder.file("cache")));
 }
 
@@ -140,16 +143,19 @@ struct ExecLoopTest : ExecNodeTest {
       "nodes": { "select": { "type": "SelectBalls", "inputs": { "balls": "inputs.balls", "cover": "inputs.cover" },
                              "params": { "allow_unfinished": "${allow}" } } },
       "outputs": { "balls": "select.balls" } })");
-    test::write_file(folder.file("graph.json"), R"({
+    test::write_file(folder.file("graph.json"),
+                     R"({
       "nodes": {
-        "dmt": { "graph": ")" + test::source_file("graphs/dmt.json") +
-                                                    R"(", "params": { "input": "shape:torus?n=600" } },
+        "dmt": { "graph": ")" +
+                         test::source_file("graphs/dmt.json") +
+                         R"(", "params": { "input": "shape:torus?n=600", "sampling": "vertices" } },
         "grow": { "type": "Enlarge", "inputs": { "balls": "dmt.inner", "points": "dmt.points" }, "params": { "epsilon": 1 } },
         "matrix": { "type": "CoverMatrix", "inputs": { "balls": "grow.balls", "points": "dmt.points" } },
         "greedy": { "type": "Greedy", "inputs": { "cover": "matrix.cover" }, "params": { "mode": "until_covered" } },
         "again": { "loop": "body.json", "inputs": { "balls": "grow.balls", "cover": "greedy.cover" },
-                   "until": ")" + until + "\"" + settings +
-                                                    R"( } },
+                   "until": ")" +
+                         until + "\"" + settings +
+                         R"( } },
       "outputs": { "balls": "again.balls" } })");
   }
 };
@@ -182,11 +188,12 @@ TEST_F(ExecLoopTest, a_loop_that_reaches_its_limit_is_repeated_as_a_loop) {
 }
 
 TEST_F(ExecNodeTest, gives_what_the_node_gives_in_a_graph_and_shares_its_cache) {
-  ASSERT_EQ(ballflow({"run", test::source_file("graphs/dmt.json"), "--set", "input=shape:torus?n=600",
-                      "--report", folder.file("report.json")})
+  ASSERT_EQ(ballflow({"run", test::source_file("graphs/dmt.json"), "--set", "sampling=vertices", "--set",
+                      "input=shape:torus?n=600", "--report", folder.file("report.json")})
                 .exit_code,
             0);
-  const std::string points = digest_of("sample", "points"), poles = digest_of("poles", "poles");
+  const std::string points = digest_of("sampling/sample", "points"),
+                    poles = digest_of("sampling/poles", "poles");
   const ProcessResult hit = ballflow({"exec-node", "VoronoiPoles", "--input", "points=" + points});
   ASSERT_EQ(hit.exit_code, 0) << hit.err;
   EXPECT_NE(hit.out.find("HIT"), std::string::npos) << hit.out;
@@ -208,9 +215,10 @@ TEST_F(ExecNodeTest, gives_what_the_node_gives_in_a_graph_and_shares_its_cache) 
   const ProcessResult other = ballflow(
       {"exec-node", "Sample", "--set", "file=shape:sphere?n=300", "--cache", folder.file("other cache")});
   ASSERT_EQ(other.exit_code, 0) << other.err;
-  const ProcessResult graph = ballflow({"run", test::source_file("graphs/dmt.json"), "--set",
-                                        "input=shape:sphere?n=300", "--cache", folder.file("other cache")});
-  EXPECT_NE(graph.out.find("2 run, 1 from the cache"), std::string::npos) << graph.out;
+  const ProcessResult graph =
+      ballflow({"run", test::source_file("graphs/dmt.json"), "--set", "sampling=vertices", "--set",
+                "input=shape:sphere?n=300", "--cache", folder.file("other cache")});
+  EXPECT_NE(graph.out.find("4 run, 1 from the cache"), std::string::npos) << graph.out;
 }
 
 TEST_F(ExecNodeTest, reports_failures_as_json_with_the_exit_code_of_every_run) {
@@ -223,11 +231,12 @@ TEST_F(ExecNodeTest, reports_failures_as_json_with_the_exit_code_of_every_run) {
 }
 
 TEST_F(ExecNodeTest, what_is_wrong_with_the_command_is_said_before_anything_runs) {
-  ASSERT_EQ(ballflow({"run", test::source_file("graphs/dmt.json"), "--set", "input=shape:torus?n=600",
-                      "--report", folder.file("report.json")})
+  ASSERT_EQ(ballflow({"run", test::source_file("graphs/dmt.json"), "--set", "sampling=vertices", "--set",
+                      "input=shape:torus?n=600", "--report", folder.file("report.json")})
                 .exit_code,
             0);
-  const std::string points = digest_of("sample", "points"), mesh = digest_of("sample", "mesh");
+  const std::string points = digest_of("sampling/sample", "points"),
+                    mesh = digest_of("sampling/sample", "mesh");
   const auto expect_wrong = [&](std::vector<std::string> arguments, const std::string& words) {
     arguments.insert(arguments.begin(), "exec-node");
     const ProcessResult result = ballflow(arguments);
@@ -267,11 +276,12 @@ TEST_F(ExecNodeTest, a_file_that_breaks_the_invariants_of_its_type_never_reaches
 }
 
 TEST_F(ExecNodeTest, a_graph_takes_an_artifact_as_a_parameter_from_the_cache_or_a_file) {
-  ASSERT_EQ(ballflow({"run", test::source_file("graphs/dmt.json"), "--set", "input=shape:torus?n=600",
-                      "--report", folder.file("report.json")})
+  ASSERT_EQ(ballflow({"run", test::source_file("graphs/dmt.json"), "--set", "sampling=vertices", "--set",
+                      "input=shape:torus?n=600", "--report", folder.file("report.json")})
                 .exit_code,
             0);
-  const std::string points = digest_of("sample", "points"), poles = digest_of("poles", "poles");
+  const std::string points = digest_of("sampling/sample", "points"),
+                    poles = digest_of("sampling/poles", "poles");
   const std::string graph = folder.file("poles.json");
   test::write_file(graph, R"({
     "params": { "sample": { "kind": "artifact", "type": "PointSet", "doc": "the sample" } },

@@ -16,7 +16,7 @@ struct ExplainCliTest : testing::Test {
   }
   void run(const std::string& epsilon) {
     ballflow({"run", graph, "--quiet", "--set", "input=shape:torus?n=600", "--set", "strategy=hybrid",
-              "--set", "epsilon=" + epsilon});
+              "--set", "sampling=vertices", "--set", "epsilon=" + epsilon});
   }
   static void expect_words(const std::string& text, const std::vector<std::string>& words) {
     for (const std::string& word : words)
@@ -32,7 +32,7 @@ TEST_F(ExplainCliTest, tells_what_changed_since_the_run_before_without_having_be
   run("0.5");
   const std::string enlarge = ballflow({"explain", "enlarge"});
   expect_words(enlarge, {"enlarge (Enlarge): run 2", "params.epsilon 0.3 -> 0.5",
-                         "input balls: same content (dmt/label.inner)"});
+                         "input balls: same content (dmt/sampling/label.inner)"});
   EXPECT_EQ(enlarge.find("because of"), std::string::npos) << enlarge;
   const std::string matrix = ballflow({"explain", "matrix"});
   expect_words(matrix, {"input balls: other content (enlarge.balls)",
@@ -45,13 +45,20 @@ TEST_F(ExplainCliTest, tells_what_changed_since_the_run_before_without_having_be
   expect_words(ballflow({"explain", "prune/rounds/exact"}),
                {"input cover: from the same port (prune/rounds/reduce.cover)",
                 "nothing differs; the loop prune/rounds is what has a key"});
-  expect_words(ballflow({"explain", "dmt/sample"}), {"nothing differs: the key is the same"});
+  expect_words(ballflow({"explain", "dmt/sampling/sample"}), {"nothing differs: the key is the same"});
 }
 
 TEST_F(ExplainCliTest, tells_what_the_next_run_of_a_graph_would_do) {
   run("0.3");
-  const std::vector<std::string> next = {
-      graph, "--set", "input=shape:torus?n=600", "--set", "strategy=hybrid", "--set", "epsilon=0.5"};
+  const std::vector<std::string> next = {graph,
+                                         "--set",
+                                         "input=shape:torus?n=600",
+                                         "--set",
+                                         "strategy=hybrid",
+                                         "--set",
+                                         "sampling=vertices",
+                                         "--set",
+                                         "epsilon=0.5"};
   const auto ask = [&](const std::string& node) {
     std::vector<std::string> arguments = {"explain", node};
     arguments.insert(arguments.end(), next.begin(), next.end());

@@ -24,8 +24,13 @@ struct InspectTest : testing::Test {
 };
 
 TEST_F(InspectTest, graph_draws_the_expanded_graph_with_its_parameters_and_what_a_run_would_do) {
-  const std::vector<std::string> graph = {test::source_file("graphs/medial_axis.json"), "--set",
-                                          "input=shape:torus?n=600", "--set", "strategy=hybrid"};
+  const std::vector<std::string> graph = {test::source_file("graphs/medial_axis.json"),
+                                          "--set",
+                                          "input=shape:torus?n=600",
+                                          "--set",
+                                          "strategy=hybrid",
+                                          "--set",
+                                          "sampling=vertices"};
   const auto draw = [&](std::vector<std::string> more) {
     more.insert(more.begin(), graph.begin(), graph.end());
     more.insert(more.begin(), "graph");

@@ -30,8 +30,8 @@ struct CloudTest : testing::Test {
 
 TEST_F(CloudTest, has_the_medial_axis_of_its_mesh) {
   make_cloud();
-  const auto mesh =
-      run("medial_axis", {"--set", "input=shape:torus?n=3000", "--report", folder.file("mesh.json")});
+  const auto mesh = run("medial_axis", {"--set", "input=shape:torus?n=3000", "--set", "sampling=vertices",
+                                        "--report", folder.file("mesh.json")});
   ASSERT_EQ(mesh.exit_code, 0) << mesh.err;
   const auto cloud = run("medial_axis", {"--set", "input=" + folder.file("points.xyz"), "--report",
                                          folder.file("cloud.json"), "--out", folder.file("out")});

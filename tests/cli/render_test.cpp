@@ -42,7 +42,8 @@ struct RenderTest : testing::Test {
 
   void run_medial_axis() {
     const auto run = ballflow({"run", "--quiet", test::source_file("graphs/medial_axis.json"), "--set",
-                               "input=shape:torus?n=500", "--report", folder.file("report.json")});
+                               "sampling=vertices", "--set", "growth=additive", "--set", "repair=none",
+                               "--set", "input=shape:torus?n=500", "--report", folder.file("report.json")});
     ASSERT_EQ(run.exit_code, 0) << run.err;
   }
 

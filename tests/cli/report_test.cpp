@@ -30,12 +30,15 @@ struct ReportCli : testing::Test {
 
 TEST_F(ReportCli, is_a_page_of_the_latest_run_with_the_command_that_repeats_it) {
   const std::string graph = test::source_file("graphs/prune.json");
-  const auto run = ballflow({"run", graph, "--set", "input=shape:torus?n=900", "--set", "prune/search.seed=3",
-                             "--seed", "5", "--quiet", "--report", folder.file("report.json")});
+  const auto run =
+      ballflow({"run", graph, "--set", "input=shape:torus?n=900", "--set", "sampling=vertices", "--set",
+                "prune/search.seed=3", "--seed", "5", "--quiet", "--report", folder.file("report.json")});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const json report = json::parse(test::read_file(folder.file("report.json")));
-  EXPECT_EQ(report.at("command"),
-            "ballflow run " + graph + " --set 'input=shape:torus?n=900' --set prune/search.seed=3 --seed 5");
+  EXPECT_EQ(
+      report.at("command"),
+      "ballflow run " + graph +
+          " --set 'input=shape:torus?n=900' --set sampling=vertices --set prune/search.seed=3 --seed 5");
   const std::string shown = page();
   EXPECT_NE(shown.find("input=shape:torus?n=900"), std::string::npos);
   EXPECT_NE(shown.find("prune/search.seed=3 --seed 5"), std::string::npos);
@@ -62,8 +65,8 @@ TEST_F(ReportCli, plots_a_sweep_and_names_the_content_of_its_files) {
       "3 3 0 4\n3 3 4 7\n");
   const auto run =
       ballflow({"run", test::source_file("graphs/experiments/epsilon_by_strategy.json"), "--set",
-                "input=" + folder.file("box.off"), "--set", "model/dmt/sample.mode=surface", "--set",
-                "model/dmt/sample.count=200", "--quiet", "--report", folder.file("report.json")});
+                "input=" + folder.file("box.off"), "--set", "sampling=surface", "--set",
+                "model/dmt/sampling/sample.count=200", "--quiet", "--report", folder.file("report.json")});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const std::string shown = page({"latest", "--pictures", "1"});
   EXPECT_NE(shown.find("class=\"band\""), std::string::npos) << "balls down to their bound";

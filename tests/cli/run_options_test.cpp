@@ -28,8 +28,10 @@ struct RunOptionsTest : testing::Test {
     return test::run_process(arguments, environment);
   }
   ProcessResult run(std::vector<std::string> arguments, std::map<std::string, std::string> environment = {}) {
-    arguments.insert(arguments.begin(), {"run", test::source_file("graphs/medial_axis.json"), "--set",
-                                         "input=shape:torus?n=2000", "--set", "strategy=greedy"});
+    arguments.insert(arguments.begin(),
+                     {"run", test::source_file("graphs/medial_axis.json"), "--set", "sampling=vertices",
+                      "--set", "growth=additive", "--set", "repair=none", "--set", "input=shape:torus?n=2000",
+                      "--set", "strategy=greedy"});
     return ballflow(std::move(arguments), std::move(environment));
   }
   json report() { return json::parse(test::read_file(folder.file("report.json"))); }
@@ -46,7 +48,8 @@ TEST_F(RunOptionsTest, until_and_only_run_a_part_and_say_what_is_missing) {
   const std::string file = folder.file("report.json");
   const ProcessResult missing = run({"--only", "alpha"});
   EXPECT_EQ(missing.exit_code, 3);
-  EXPECT_NE(missing.err.find("needs dmt/sample, whose result is not in the cache"), std::string::npos);
+  EXPECT_NE(missing.err.find("needs dmt/sampling/sample, whose result is not in the cache"),
+            std::string::npos);
   EXPECT_NE(missing.err.find("--until alpha"), std::string::npos) << missing.err;
 
   EXPECT_EQ(run({"--until", "diagram", "--report", file}).exit_code, 0);
@@ -64,7 +67,8 @@ TEST_F(RunOptionsTest, force_computes_a_subgraph_again) {
   const std::string file = folder.file("report.json");
   ASSERT_EQ(run({}).exit_code, 0);
   ASSERT_EQ(run({"--force", "dmt", "--report", file}).exit_code, 0);
-  for (const char* node : {"dmt/sample", "dmt/poles", "dmt/label"}) EXPECT_EQ(status(node), "run") << node;
+  for (const char* node : {"dmt/sampling/sample", "dmt/sampling/poles", "dmt/sampling/label"})
+    EXPECT_EQ(status(node), "run") << node;
   for (const char* node : {"enlarge", "axis"}) EXPECT_EQ(status(node), "hit") << node;
 }
 
@@ -122,8 +126,8 @@ TEST_F(RunOptionsTest, json_lines_follow_their_schema) {
   std::map<std::string, int> count;
   for (const json& line : lines(cold.out)) ++count[line.at("event")];
   EXPECT_EQ(count["run_started"], 1);
-  EXPECT_EQ(count["node_started"], 15);
-  EXPECT_EQ(count["node_finished"], 15);
+  EXPECT_EQ(count["node_started"], 17);
+  EXPECT_EQ(count["node_finished"], 17);
   EXPECT_GE(count["cache_write"], 11);
   const json reported = lines(cold.out).back();
   EXPECT_EQ(reported.at("event"), "run_reported");
@@ -166,7 +170,7 @@ TEST_F(RunOptionsTest, a_trace_has_every_node_on_a_lane_without_overlap) {
     nodes.insert(event.at("name").get<std::string>());
     lanes[event.at("tid")].emplace_back(start, end);
   }
-  EXPECT_EQ(nodes.size(), 15u);
+  EXPECT_EQ(nodes.size(), 17u);
   EXPECT_GE(writes, 11);
   EXPECT_GE(counters, 20);
   for (auto& [lane, slices] : lanes) {
@@ -185,8 +189,8 @@ TEST_F(RunOptionsTest, the_determinism_check_passes_on_the_whole_pipeline) {
 }
 
 TEST_F(RunOptionsTest, digests_are_the_same_on_a_processor_without_fma_and_avx2) {
-  std::vector<std::vector<std::string>> runs = {
-      {test::source_file("graphs/medial_axis.json"), "--set", "strategy=hybrid"}};
+  std::vector<std::vector<std::string>> runs = {{test::source_file("graphs/medial_axis.json"), "--set",
+                                                 "strategy=hybrid", "--set", "sampling=vertices"}};
   for (const auto& entry : fs::directory_iterator(test::source_file("graphs"))) {
     if (entry.path().extension() == ".json") runs.push_back({entry.path().string()});
   }

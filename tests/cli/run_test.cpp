@@ -24,7 +24,9 @@ struct CliTest : testing::Test {
     return test::run_process(arguments, {{"BALLFLOW_CACHE", folder.file("cache")}}, stop_after, signal);
   }
   ProcessResult run(std::vector<std::string> arguments, double stop_after = 0, int signal = SIGKILL) {
-    arguments.insert(arguments.begin(), {"run", test::source_file("graphs/medial_axis.json")});
+    arguments.insert(arguments.begin(),
+                     {"run", test::source_file("graphs/medial_axis.json"), "--set", "sampling=vertices",
+                      "--set", "growth=additive", "--set", "repair=none"});
     return ballflow(std::move(arguments), stop_after, signal);
   }
   json report() { return json::parse(test::read_file(folder.file("report.json"))); }
@@ -49,7 +51,7 @@ struct CliTest : testing::Test {
     const ProcessResult result = run({"--set", "input=" + folder.file(name)});
     EXPECT_EQ(result.exit_code, 3) << name << ": " << result.err;
     EXPECT_NE(result.err.find(expected), std::string::npos) << name << ": " << result.err;
-    EXPECT_NE(result.err.find("node dmt/sample (Sample) failed"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("node dmt/sampling/sample (Sample) failed"), std::string::npos) << result.err;
   }
 };
 
@@ -88,9 +90,9 @@ TEST_F(CliTest, another_epsilon_reruns_enlarge_and_what_follows_and_nothing_befo
   ASSERT_EQ(run({"--set", small, "--set", "epsilon=0.6", "--report", folder.file("report.json")}).exit_code,
             0);
   const auto status = statuses(report());
-  EXPECT_EQ(status.at("dmt/sample"), "hit");
-  EXPECT_EQ(status.at("dmt/poles"), "hit");
-  EXPECT_EQ(status.at("dmt/label"), "hit");
+  EXPECT_EQ(status.at("dmt/sampling/sample"), "hit");
+  EXPECT_EQ(status.at("dmt/sampling/poles"), "hit");
+  EXPECT_EQ(status.at("dmt/sampling/label"), "hit");
   EXPECT_EQ(status.at("enlarge"), "run");
   EXPECT_EQ(status.at("matrix"), "run");
   EXPECT_EQ(status.at("select"), "run");
@@ -151,9 +153,12 @@ TEST_F(CliTest, changing_one_side_of_a_minkowski_sum_leaves_the_other_in_the_cac
 
 TEST_F(CliTest, plan_and_check_say_what_a_run_would_do) {
   const std::string graph = test::source_file("graphs/medial_axis.json");
-  EXPECT_NE(ballflow({"plan", graph, "--set", small}).out.find("RUN"), std::string::npos);
+  const std::vector<std::string> plan_it = {
+      "plan",  graph,        "--set", small, "--set", "sampling=vertices", "--set", "growth=additive",
+      "--set", "repair=none"};
+  EXPECT_NE(ballflow(plan_it).out.find("RUN"), std::string::npos);
   ASSERT_EQ(run({"--set", small}).exit_code, 0);
-  const ProcessResult plan = ballflow({"plan", graph, "--set", small});
+  const ProcessResult plan = ballflow(plan_it);
   EXPECT_EQ(plan.exit_code, 0);
   EXPECT_EQ(plan.out.find("RUN"), std::string::npos) << plan.out;
   EXPECT_EQ(ballflow({"check", graph}).exit_code, 0);
@@ -320,7 +325,7 @@ TEST_F(CliTest, what_cannot_be_written_is_refused_before_anything_runs) {
     arguments.insert(arguments.begin(), {"--set", small});
     const ProcessResult result = run(arguments);
     EXPECT_EQ(result.exit_code, code) << arguments[1] << ": " << result.err;
-    EXPECT_EQ(result.err.find("dmt/sample"), std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find("dmt/sampling/sample"), std::string::npos) << result.err;
   };
   refused({"--out", folder.file("file")}, 5);
   refused({"--report", folder.file("absent/report.json")}, 5);

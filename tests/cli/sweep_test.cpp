@@ -47,12 +47,13 @@ struct SweepCli : testing::Test {
   }
 };
 
-const std::vector<std::string> small = {"--set", "input=shape:torus?n=1500"};
+const std::vector<std::string> small = {"--set", "input=shape:torus?n=1500", "--set", "sampling=vertices"};
 
 TEST_F(SweepCli, computes_the_topology_of_what_comes_before_the_pruning_once) {
   const ProcessResult result = ballflow(
-      {"run", test::source_file("graphs/medial_axis.json"), "--axis", "strategy=none,greedy,certified",
-       "--set", small[1], "--quiet", "--report", folder.file("report.json"), "--out", folder.file("out")});
+      {"run", test::source_file("graphs/medial_axis.json"), "--set", "sampling=vertices", "--set",
+       "growth=additive", "--set", "repair=none", "--axis", "strategy=none,greedy,certified", "--set",
+       small[1], "--quiet", "--report", folder.file("report.json"), "--out", folder.file("out")});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json report = json::parse(test::read_file(folder.file("report.json")));
   std::map<std::string, int> executions;
@@ -70,9 +71,9 @@ TEST_F(SweepCli, runs_shared_prefixes_once_and_gives_what_single_runs_give) {
   ASSERT_EQ(report.at("variants").size(), 6u);
   std::map<std::string, int> executions;
   for (const auto& [path, node] : report.at("nodes").items()) {
-    // No output of the sweep asks for the table of the topology.
-    const bool topology = node.at("type").get<std::string>().ends_with("Topology");
-    EXPECT_EQ(node.at("status"), topology ? "skipped" : "run") << path;
+    // No output of the sweep asks for volumes, or for how the sample was chosen.
+    const bool asked = node.at("type") != "UnionMeasure" && node.at("type") != "Refine";
+    EXPECT_EQ(node.at("status"), asked ? "run" : "skipped") << path;
     ++executions[node.at("type")];
   }
   EXPECT_EQ(executions["Sample"], 1);
@@ -87,7 +88,7 @@ TEST_F(SweepCli, runs_shared_prefixes_once_and_gives_what_single_runs_give) {
     const json& params = variant.at("params");
     const ProcessResult alone = test::run_process(
         {test::binary_file("bin/ballflow"), "run", test::source_file("graphs/medial_axis.json"), "--set",
-         small[1], "--set", "epsilon=" + params.at("epsilon").dump(), "--set",
+         "sampling=vertices", "--set", small[1], "--set", "epsilon=" + params.at("epsilon").dump(), "--set",
          "strategy=" + params.at("strategy").get<std::string>(), "--no-cache", "--quiet", "--report",
          folder.file("alone.json")});
     ASSERT_EQ(alone.exit_code, 0) << alone.err;
@@ -111,8 +112,8 @@ TEST_F(SweepCli, another_strategy_costs_only_what_changed) {
   std::vector<std::string> arguments = small;
   arguments.insert(arguments.end(), {"--axis", "strategy=greedy"});
   const json first = sweep(arguments, folder.file("out"));
-  // Skipped: 3 tables of the topology and what they compare, once for the solid and the inner balls.
-  EXPECT_EQ(count_statuses(first).at("run"), static_cast<int>(first.at("nodes").size()) - 8);
+  // Skipped: 3 measures of the union, and once how the sample was chosen.
+  EXPECT_EQ(count_statuses(first).at("run"), static_cast<int>(first.at("nodes").size()) - 4);
   arguments.back() = "strategy=greedy,hybrid";
   std::map<std::string, int> executions;
   const json swapped = sweep(arguments, folder.file("out"));
@@ -161,10 +162,11 @@ TEST_F(SweepCli, files_are_inputs_and_folders) {
 
 TEST_F(SweepCli, a_variant_that_fails_does_not_cost_the_others_their_files) {
   const ProcessResult result =
-      ballflow({"sweep", test::source_file("graphs/dmt.json"), "--inputs", "shape:torus?n=500",
-                folder.file("missing.off"), "--out", folder.file("out")});
+      ballflow({"sweep", test::source_file("graphs/dmt.json"), "--set", "sampling=vertices", "--inputs",
+                "shape:torus?n=500", folder.file("missing.off"), "--out", folder.file("out")});
   EXPECT_EQ(result.exit_code, 3);
-  EXPECT_NE(result.err.find("[input=missing.off]/sample (Sample) failed"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("[input=missing.off]/sampling/sample (Sample) failed"), std::string::npos)
+      << result.err;
   EXPECT_NE(result.out.find("shape:torus?n=500"), std::string::npos) << result.out;
   const json report = json::parse(test::read_file(folder.file("out/report.json")));
   EXPECT_EQ(report.at("variants")[0].at("status"), "failed");
@@ -176,7 +178,7 @@ TEST_F(SweepCli, a_variant_that_fails_does_not_cost_the_others_their_files) {
 TEST_F(SweepCli, plan_check_and_run_understand_sweeps) {
   const ProcessResult checked = ballflow({"check", graph});
   EXPECT_NE(checked.out.find(": 6 variants with "), std::string::npos) << checked.out;
-  EXPECT_NE(checked.out.find(" nodes, 24 outputs, no errors"), std::string::npos) << checked.out;
+  EXPECT_NE(checked.out.find(" nodes, 30 outputs, no errors"), std::string::npos) << checked.out;
   const ProcessResult planned = ballflow({"plan", graph, "--axis", "epsilon=0.2"});
   EXPECT_NE(planned.out.find("[strategy=hybrid]/model/prune/rounds"), std::string::npos) << planned.out;
   const ProcessResult ran = ballflow({"run", graph, "--axis", "epsilon=0.5", small[0], small[1]});

@@ -31,35 +31,43 @@ constexpr int kNoTopology = 1000;
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
+/// The thesis: the vertices are the sample, balls grow freely, nothing is returned.
+std::vector<Setting> as_in_the_thesis(std::vector<Setting> settings) {
+  settings.insert(settings.end(), {{"sampling", "vertices"}, {"growth", "additive"}, {"repair", "none"}});
+  return settings;
+}
+/// For graphs that neither prune nor grow, or grow in a way of their own.
+std::vector<Setting> of_vertices(std::vector<Setting> settings) {
+  settings.push_back({"sampling", "vertices"});
+  return settings;
+}
+
 const std::vector<Case>& cases() {
   static const std::vector<Case> all = {
-      {"sphere", "medial_axis", {{"input", "shape:sphere?n=2500"}}, 1},
-      {"torus", "medial_axis", {{"input", "shape:torus?n=6000"}}, 0},
-      {"double_torus", "medial_axis", {{"input", "shape:doubleTorus?n=8000"}}, -1},
-      {"3cross", "medial_axis", {{"input", "shape:3cross?n=8000"}}, 1},
-      {"knot", "medial_axis", {{"input", "shape:knot?n=8000"}}, 0},
-      {"torus_hybrid", "medial_axis", {{"input", "shape:torus?n=6000"}, {"strategy", "hybrid"}}, 0},
+      {"box", "medial_axis", {{"input", "shape:box?n=60"}}, 1},
+      {"bracket", "medial_axis", {{"input", "shape:bracket?n=500"}, {"delta", "1"}}, 0},
+      {"double_torus_offset", "offset", {{"input", "shape:doubleTorus?n=2000"}, {"delta", "1"}}, kNoTopology},
+      {"sphere", "medial_axis", as_in_the_thesis({{"input", "shape:sphere?n=2500"}}), 1},
+      {"torus", "medial_axis", as_in_the_thesis({{"input", "shape:torus?n=6000"}}), 0},
+      {"double_torus", "medial_axis", as_in_the_thesis({{"input", "shape:doubleTorus?n=8000"}}), -1},
+      {"3cross", "medial_axis", as_in_the_thesis({{"input", "shape:3cross?n=8000"}}), 1},
+      {"knot", "medial_axis", as_in_the_thesis({{"input", "shape:knot?n=8000"}}), 0},
+      {"torus_hybrid", "medial_axis",
+       as_in_the_thesis({{"input", "shape:torus?n=6000"}, {"strategy", "hybrid"}}), 0},
       {"balls", "balls", {}, kNoTopology},  // a ring of balls and one ball apart: Betti 2 1 0
-      {"minkowski_sum",
-       "minkowski_sum",
-       {{"a", "shape:torus?n=2000"}, {"b", "shape:knot?n=3000&R=0.2"}},
-       kNoTopology},
-      {"box_dmt", "dmt", {{"input", "shape:box?n=2000"}}, kNoTopology},
+      {"minkowski_sum", "minkowski_sum",
+       as_in_the_thesis({{"a", "shape:torus?n=2000"}, {"b", "shape:knot?n=3000&R=0.2"}}), kNoTopology},
+      {"box_dmt", "dmt", of_vertices({{"input", "shape:box?n=2000"}}), kNoTopology},
       {"knot_points", "dmt_points", {{"input", "shape:knot?n=8000"}}, kNoTopology},
-      {"double_torus_growth",
-       "growth",
-       {{"input", "shape:doubleTorus?n=4000"}, {"epsilon", "30"}},
-       kNoTopology},
-      {"double_torus_pole_bound",
-       "growth",
-       {{"input", "shape:doubleTorus?n=4000"}, {"epsilon", "10"}, {"mode", "pole_bound"}},
+      {"double_torus_growth", "growth",
+       of_vertices({{"input", "shape:doubleTorus?n=4000"}, {"epsilon", "30"}}), kNoTopology},
+      {"double_torus_pole_bound", "growth",
+       of_vertices({{"input", "shape:doubleTorus?n=4000"}, {"epsilon", "10"}, {"mode", "pole_bound"}}),
        kNoTopology},
       {"torus_feature_size", "local_feature_size", {{"input", "shape:torus?n=6000"}}, kNoTopology},
-      {"torus_outside", "outer_medial_axis", {{"input", "shape:torus?n=6000"}}, kNoTopology},
-      {"double_torus_150_balls",
-       "k_balls",
-       {{"input", "shape:doubleTorus?n=4000"}, {"k", "150"}},
-       kNoTopology},
+      {"torus_outside", "outer_medial_axis", of_vertices({{"input", "shape:torus?n=6000"}}), kNoTopology},
+      {"double_torus_150_balls", "k_balls",
+       of_vertices({{"input", "shape:doubleTorus?n=4000"}, {"k", "150"}}), kNoTopology},
   };
   return all;
 }

@@ -125,7 +125,8 @@ class Artifact:
         pass
 
     read_CoverCheck = read_Comparison = read_Bisection = read_CoverState
-    read_TopologyTable = read_TopologyCheck = read_CoverState
+    read_TopologyTable = read_TopologyCheck = read_Refinement = read_CoverState
+    read_MassProperties = read_CoverState
 
     def balls(self):
         return [(*p, r) for p, r in zip(self.points, self.radii)]

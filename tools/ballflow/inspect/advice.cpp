@@ -50,6 +50,7 @@ class Adviser {
       report_.labels = "angle";
       report_.labels_reason = "a cloud of points has no mesh that says what is inside";
     } else if (look_.closed) {
+      report_.samples = -1;
       report_.labels = "mesh";
       report_.labels_reason = "the surface is closed: what is inside is decided exactly";
     } else {
@@ -170,11 +171,6 @@ class Adviser {
   void thin() {
     if (!look_.widths) return;
     const geometry::Widths& widths = *look_.widths;
-    const double box = look_.box.longest_edge();
-    // A sample sees what is about as far as the next sample; half of that leaves room for both sides.
-    double need = box;
-    if (widths.wall) need = std::min(need, widths.wall->width / 2);
-    if (widths.slot) need = std::min(need, widths.slot->width / 2);
     std::string what;
     if (widths.thin_walls > 0) {
       what = counted(widths.thin_walls, "place is", "places are") + " thinner than its triangle is long, " +
@@ -185,25 +181,18 @@ class Adviser {
               " another one opposite as near, " + short_number(widths.slot->width) + " at the nearest, at " +
               place(widths.slot->from);
     }
-    const bool coarse = look_.spacing.largest > box / 10;
-    if (what.empty() && !coarse) return;
-    if (what.empty()) {
+    if (what.empty() && look_.spacing.largest > look_.box.longest_edge() / 10) {
       what = "vertices are up to " + short_number(look_.spacing.largest) +
-             " apart, more than a tenth of the model: there are too few samples at the vertices";
-      need = std::min(need, box / 100);
+             " apart, more than a tenth of the model";
     }
-    // Evenly spread points that are d apart cover about 0.87 d^2 each.
-    const double count = look_.area / (0.87 * need * need);
-    constexpr double most = 1e5;  // what a run takes in about a minute
-    const double rounded = std::ceil(std::clamp(count, 1000.0, most) / 1000) * 1000;
-    options_.push_back("dmt/sample.mode=surface");
-    options_.push_back("dmt/sample.count=" + std::to_string(static_cast<std::int64_t>(rounded)));
-    say(what, "sample the faces instead of the vertices: dmt/sample.mode=surface with " +
-                  std::to_string(static_cast<std::int64_t>(rounded)) + " points" +
-                  (count > most
-                       ? "; more would be needed everywhere for what is thin in few places, so look whether "
-                         "the topology is kept"
-                       : ""));
+    if (what.empty()) return;
+    if (look_.closed) {
+      say(what,
+          "nothing has to be done: samples of closed surfaces follow the shape (sampling=auto, see Refine)");
+    } else {
+      options_.push_back("sampling=surface");
+      say(what, "sample the faces instead of the vertices: sampling=surface");
+    }
   }
 
   ModelReport& report_;
@@ -213,7 +202,7 @@ class Adviser {
 
 }  // namespace
 
-const std::string sample_node = "dmt/sample";
+const std::string sample_node = "dmt/sampling/sample";
 
 void advise(ModelReport& report) { Adviser(report).run(); }
 

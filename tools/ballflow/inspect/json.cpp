@@ -108,28 +108,30 @@ Json json_of(const ModelReport& report) {
   Json findings = Json::array();
   for (const Finding& finding : report.findings)
     findings.push_back({{"what", finding.what}, {"remedy", finding.remedy}});
-  Json json = {
-      {"file", report.path},
-      {"format", report.format},
-      {"bytes", report.bytes},
-      {"kind", report.model.mesh.triangles.empty() ? "points" : "mesh"},
-      {"points", report.model.points.points.size()},
-      {"triangles", report.model.mesh.triangles.size()},
-      {"normals", !report.model.points.normals.empty()},
-      {"welded_vertices", report.model.welded_vertices},
-      {"unused_vertices", report.model.unused_vertices},
-      {"box", {point(look.box.lower), point(look.box.upper)}},
-      {"unit", {{"guess", report.units}, {"reason", report.units_reason}}},
-      {"spacing", {{"median", look.spacing.median}, {"largest", look.spacing.largest}}},
-      {"stray_points",
-       {{"count", look.strays.points.size()},
-        {"nearest", look.strays.nearest},
-        {"diagonal", look.strays.diagonal},
-        {"first", first(look.strays.points, most_places)}}},
-      {"reading", report.read},
-      {"run", {{"samples", report.samples}, {"labels", report.labels}, {"reason", report.labels_reason}}},
-      {"findings", std::move(findings)},
-      {"command", report.command}};
+  Json json = {{"file", report.path},
+               {"format", report.format},
+               {"bytes", report.bytes},
+               {"kind", report.model.mesh.triangles.empty() ? "points" : "mesh"},
+               {"points", report.model.points.points.size()},
+               {"triangles", report.model.mesh.triangles.size()},
+               {"normals", !report.model.points.normals.empty()},
+               {"welded_vertices", report.model.welded_vertices},
+               {"unused_vertices", report.model.unused_vertices},
+               {"box", {point(look.box.lower), point(look.box.upper)}},
+               {"unit", {{"guess", report.units}, {"reason", report.units_reason}}},
+               {"spacing", {{"median", look.spacing.median}, {"largest", look.spacing.largest}}},
+               {"stray_points",
+                {{"count", look.strays.points.size()},
+                 {"nearest", look.strays.nearest},
+                 {"diagonal", look.strays.diagonal},
+                 {"first", first(look.strays.points, most_places)}}},
+               {"reading", report.read},
+               {"run",
+                {{"samples", report.samples < 0 ? Json(nullptr) : Json(report.samples)},
+                 {"labels", report.labels},
+                 {"reason", report.labels_reason}}},
+               {"findings", std::move(findings)},
+               {"command", report.command}};
   if (!report.model.mesh.triangles.empty()) json["mesh"] = mesh(report);
   return json;
 }

@@ -29,7 +29,7 @@ struct ModelReport {
   std::string units, units_reason;
 
   // What a run with the default parameters does.
-  std::int64_t samples = 0;
+  std::int64_t samples = 0;           // -1: Refine chooses them
   std::string labels, labels_reason;  // "mesh", "winding" or "angle"
 
   std::vector<Finding> findings;  // the most important first

@@ -180,7 +180,10 @@ std::string text_of(const ModelReport& report) {
     }
   }
   out.heading("A run with the default parameters");
-  out.line("samples", grouped(report.samples) + (cloud ? ", the points" : ", the vertices"));
+  out.line("samples",
+           report.samples < 0
+               ? "chosen so that they follow the shape (node Refine), a few thousand for most models"
+               : grouped(report.samples) + (cloud ? ", the points" : ", the vertices"));
   out.line("labels", report.labels + ": " + report.labels_reason);
   if (!report.findings.empty()) out.heading("What matters");
   for (const Finding& finding : report.findings) {
