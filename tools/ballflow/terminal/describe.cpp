@@ -150,6 +150,17 @@ std::string describe(const OutputEntry& output) {
                 " to " + rounded(s, "max_pole_distance") + " away";
        }},
       {"MinkowskiReport", minkowski},
+      {"MassProperties",
+       [](const Json& s) {
+         std::string text = "volume " + rounded(s, "volume");
+         if (s.contains("volume_error") && s.at("volume_error").is_number()) {
+           char error[48];
+           std::snprintf(error, sizeof error, " (%+.2f %% of the solid's)",
+                         100 * s.at("volume_error").get<double>());
+           text += error;
+         }
+         return text + ", area " + rounded(s, "area");
+       }},
       {"PowerDiagram",
        [](const Json& s) {
          return counted(s, "cells", "cell") + " of " + counted(s, "balls", "ball") + ", " +

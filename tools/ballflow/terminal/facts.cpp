@@ -1,19 +1,11 @@
 #include "terminal/facts.hpp"
 
-#include <cstdio>
-
 #include "terminal/terminal.hpp"
 
 namespace ballflow::cli {
 namespace {
 
 constexpr std::size_t most_facts = 3;
-
-std::string short_number(const Json& value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value.get<double>());
-  return text;
-}
 
 class Facts {
  public:
@@ -90,12 +82,7 @@ class Facts {
     for (const char* type : {"Comparison", "MinkowskiReport", "Bisection"}) {
       if (const OutputEntry* const output = of_type(type)) facts_.push_back(describe(*output));
     }
-    if (const OutputEntry* const mass = of_type("MassProperties")) {
-      const Json s = summary(*mass);
-      if (s.contains("volume") && s.at("volume").is_number() && s.contains("area") &&
-          s.at("area").is_number())
-        facts_.push_back("volume " + short_number(s.at("volume")) + ", area " + short_number(s.at("area")));
-    }
+    if (const OutputEntry* const mass = of_type("MassProperties")) facts_.push_back(describe(*mass));
     if (const OutputEntry* const axis = of_type("MedialAxis"))
       facts_.push_back("medial axis: " + describe(*axis));
   }
