@@ -96,6 +96,25 @@ std::string minkowski(const Json& s) {
   return text;
 }
 
+std::string refinement(const Json& s) {
+  if (!s.at("refined").get<bool>()) return "points as they came";
+  std::string text = s.at("reached").get<bool>() ? "topology reached" : "topology NOT reached";
+  text += " in " + counted(s, "rounds", "round");
+  if (s.at("limited") != 0) text += ", " + number(s, "limited") + " places too thin";
+  if (s.at("uncovered") != 0) text += ", " + counted(s, "uncovered", "sample") + " without an inner ball";
+  return text;
+}
+
+std::string measure(const Json& s) {
+  std::string text = "volume " + rounded(s, "volume") + ", area " + rounded(s, "area");
+  if (s.contains("volume_error")) {
+    char percent[32];
+    std::snprintf(percent, sizeof percent, "%+.2f %%", 100 * s.at("volume_error").get<double>());
+    text += ", " + std::string(percent) + " of the solid's volume";
+  }
+  return text;
+}
+
 std::string axis(const Json& s) {
   return counted(s, "polygons", "polygon") + " in " + counted(s, "sheets", "sheet") + ", " +
          counted(s, "edges", "free edge") + ", Euler characteristic " + number(s, "euler_characteristic");
@@ -166,6 +185,8 @@ std::string describe(const OutputEntry& output) {
          return counted(s, "cells", "cell") + " of " + counted(s, "balls", "ball") + ", " +
                 number(s, "cells_in_complex") + " in the complex, " + number(s, "hidden") + " balls hidden";
        }},
+      {"MassProperties", measure},
+      {"Refinement", refinement},
       {"SimplicialComplex", complex},
       {"MedialAxis", axis},
       {"TopologyTable", [](const Json& s) { return s.at("words").get<std::string>(); }},

@@ -394,6 +394,29 @@ TEST(label_poles, of_an_open_sheet_are_refused) {
   EXPECT_NE(why.find("the mesh is open"), std::string::npos) << why;
 }
 
+TEST(label_poles, of_a_bowl_are_refused_with_the_choices_unless_a_method_is_asked_for) {
+  Mesh bowl = test::sphere(4);  // a third of a sphere has a side, and no inside
+  std::erase_if(bowl.triangles, [&](const auto& t) { return bowl.vertices[at(t[0])].z > -0.6; });
+  std::vector<Vec3> kept;
+  for (auto& t : bowl.triangles) {
+    for (auto& v : t) {
+      const auto found = std::find(kept.begin(), kept.end(), bowl.vertices[at(v)]);
+      if (found == kept.end()) kept.push_back(bowl.vertices[at(v)]);
+      v = static_cast<std::int32_t>(std::find(kept.begin(), kept.end(), bowl.vertices[at(v)]) - kept.begin());
+    }
+  }
+  bowl.vertices = kept;
+  const PoleSet poles = voronoi_poles(bowl.points(), {});
+  try {
+    label_poles(poles, bowl.mesh(), {});
+    FAIL() << "a bowl has no inside";
+  } catch (const InputError& error) {
+    for (const char* words : {"the mesh is open", "sampling=wrap", "labels=winding"}) {
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(label_poles, of_a_closed_mesh_with_too_few_samples_say_so) {
   // The circumscribed ball of four vertices of a cube's corner has its centre outside.
   const std::vector<geometry::Vec3> corner = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
