@@ -8,7 +8,7 @@ const path = join(folder, 'page.html');
 let browser, page;
 
 before(async () => {
-  ballflow('run', `${graphs}dmt.json`, '--quiet', '--set', 'input=shape:torus?n=300');
+  ballflow('run', `${graphs}dmt_points.json`, '--quiet', '--set', 'input=shape:torus?n=300');
   ballflow('view', '-o', path);
   browser = await startChromium();
   page = await browser.open(path);

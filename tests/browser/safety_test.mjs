@@ -31,7 +31,7 @@ test('names and values from a report are texts', async () => {
 });
 
 test('a browser refuses scripts, pictures and requests that the page did not bring', async () => {
-  ballflow('graph', `${graphs}dmt.json`, '--html', join(folder, 'graph.html'));
+  ballflow('graph', `${graphs}dmt_points.json`, '--html', join(folder, 'graph.html'));
   const page = await browser.open(join(folder, 'graph.html'));
   assert.deepEqual(page.complaints, []);
   await page.evaluate(() => {

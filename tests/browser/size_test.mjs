@@ -22,7 +22,7 @@ function cpuSeconds(browser) {
 
 test('a large page is small and soon ready', async () => {
   const report = join(folder, 'report.json');
-  ballflow('run', `${graphs}dmt.json`, '--quiet', '--set', 'input=shape:knot?n=67000', '--report', report);
+  ballflow('run', `${graphs}dmt.json`, '--quiet', '--set', 'input=shape:knot?n=67000', '--set', 'sampling=vertices', '--report', report);
   const { outputs } = readJson(report);
   assert.ok(outputs.inner.summary.count > 50_000, `${outputs.inner.summary.count} balls`);
   assert.ok(outputs.mesh.summary.faces > 100_000);

@@ -10,7 +10,8 @@ const sweepPath = join(folder, 'sweep.html');
 let browser, page, report, balls, inner;
 
 before(async () => {
-  ballflow('run', `${graphs}medial_axis.json`, '--quiet', '--set', 'input=shape:torusBalls?n=2500', '--set', 'epsilon=0.1', '--out', out, '--format', 'balls=csv',
+  ballflow('run', `${graphs}medial_axis.json`, '--quiet', '--set', 'input=shape:torusBalls?n=2500', '--set', 'epsilon=0.1',
+    '--set', 'sampling=vertices', '--set', 'growth=additive', '--set', 'repair=none', '--out', out, '--format', 'balls=csv',
     '--format', 'inner=csv', '--report', join(out, 'report.json'));
   report = readJson(join(out, 'report.json'));
   balls = readCsv(join(out, 'balls.csv'));
