@@ -244,12 +244,12 @@ LabelledPoles label_poles(const PoleSet& poles, const TriangleMesh& mesh, const 
     // A sheet: hardly a pole is wound around enough, or many are near the middle.
     if (counts.uncertain * 5 > counts.all ||
         counts.inner * 5 < static_cast<std::int64_t>(poles.sample_poles.size())) {
-      throw InputError(why_not_closed(winding.chain(), mesh) + "; the surface has no inside that could be told: only " +
-                           std::to_string(counts.inner) + " poles are inside for " +
-                           std::to_string(poles.sample_poles.size()) + " samples, and " + uncertain +
-                           " are uncertain",
-                       "fill the holes; or let a closed surface be put around it (sampling=wrap); or take the labels as "
-                       "they are (labels=winding)");
+      throw InputError(
+          why_not_closed(winding.chain(), mesh) + "; the surface has no inside that could be told: only " +
+              std::to_string(counts.inner) + " poles are inside for " +
+              std::to_string(poles.sample_poles.size()) + " samples, and " + uncertain + " are uncertain",
+          "fill the holes; or let a closed surface be put around it (sampling=wrap); or take the labels as "
+          "they are (labels=winding)");
     }
     monitor.warn(why_not_closed(winding.chain(), mesh) +
                  "; poles were labelled by generalized winding number, " + uncertain + " are uncertain");

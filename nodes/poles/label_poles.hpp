@@ -68,9 +68,10 @@ struct LabelledPoles {
 /// No triangles, `mesh` may be {}, say that there is no mesh.
 ///
 /// Refuses (InputError), with method automatic, an open mesh around which fewer than a fifth as many poles as
-/// samples are inside, or more than a fifth of the poles are uncertain: a sheet. Refuses a mesh without triangles when `mesh` or `winding` is asked for, indices out of range,
-/// a mesh that is not closed when `mesh` is asked for, and an inside without any pole: an open sheet has
-/// none. Preconditions: `poles` and the mesh are in the same coordinates; broken_invariant(poles) is empty.
+/// samples are inside, or more than a fifth of the poles are uncertain: a sheet. Refuses a mesh without
+/// triangles when `mesh` or `winding` is asked for, indices out of range, a mesh that is not closed when
+/// `mesh` is asked for, and an inside without any pole: an open sheet has none. Preconditions: `poles` and
+/// the mesh are in the same coordinates; broken_invariant(poles) is empty.
 LabelledPoles label_poles(const PoleSet& poles, const TriangleMesh& mesh, const LabelPolesOptions& options,
                           Monitor& monitor = no_monitor());
 

@@ -37,7 +37,8 @@ struct LabelPoles {
         "candidate on the other side becomes its third pole. The summary of `poles` adds method, uncertain "
         "(winding number from 1/4 to 3/4, or exactly on the surface; for angle, evidence against the label "
         "at least half as strong as that for it), unlabelled (angle: nothing is known) and "
-        "turned_triangles. Refuses open surfaces that have no inside that could be told (a sheet; method auto), mesh and "
+        "turned_triangles. Refuses open surfaces that have no inside that could be told (a sheet; method "
+        "auto), mesh and "
         "winding without triangles, and a surface with no pole inside, "
         "such as an open sheet.");
     d.avoid_when("the mesh is not the surface that was sampled, or has large holes: see `uncertain`.");

@@ -12,12 +12,13 @@ struct WrapOptions {
   double offset = 0.2;  // how far outside of the surface the result lies
 };
 
-/// The alpha wrap of any triangles (Portaneri, Rouxel-Labbe, Hemmer, Cohen-Steiner and Alliez 2022; CGAL): closed,
-/// oriented, manifold and free of self-intersections, and everywhere about the offset away from the triangles.
-/// An open sheet becomes a shell around it, as thick as twice the offset, where no hole is narrower than alpha.
+/// The alpha wrap of any triangles (Portaneri, Rouxel-Labbe, Hemmer, Cohen-Steiner and Alliez 2022; CGAL):
+/// closed, oriented, manifold and free of self-intersections, and everywhere about the offset away from the
+/// triangles. An open sheet becomes a shell around it, as thick as twice the offset, where no hole is
+/// narrower than alpha.
 ///
-/// Refuses (InputError) a mesh without triangles or with damaged invariants, and options out of range. It cannot
-/// be cancelled between its steps: with small alpha and offset it takes minutes.
+/// Refuses (InputError) a mesh without triangles or with damaged invariants, and options out of range. With
+/// small alpha and offset it takes minutes.
 TriangleMesh wrap(const TriangleMesh& mesh, const WrapOptions& options, Monitor& monitor = no_monitor());
 
 }  // namespace ballflow::geometry

@@ -18,9 +18,11 @@ struct Wrap {
   static void declare(NodeDecl<Wrap>& d) {
     d.id("Wrap", 1).summary("A closed surface around an open one, so that it has an inside.");
     d.doc(
-        "The alpha wrap of the triangles: closed, manifold, free of self-intersections, and about `offset` outside "
-        "of them. Holes narrower than `alpha` are closed; through wider ones the wrap enters, so that an open sheet "
-        "becomes a shell around it. Accepts any triangles. It cannot be cancelled between its steps.");
+        "The alpha wrap of the triangles: closed, manifold, free of self-intersections, and about `offset` "
+        "outside "
+        "of them. Holes narrower than `alpha` are closed; through wider ones the wrap enters, so that an "
+        "open sheet "
+        "becomes a shell around it. Accepts any triangles.");
     d.avoid_when("the surface is closed already: the wrap is farther out and has rounded corners.");
     d.cites("portaneri2022", "alpha wrapping").library("CGAL", geometry::cgal_version());
     d.memory(std::uint64_t{64} << 20, 16);

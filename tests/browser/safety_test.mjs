@@ -51,6 +51,6 @@ test('a page of a graph shows nodes without a 3D view', async () => {
   assert.equal(await page.evaluate('document.querySelectorAll("[data-node]").length'), 3);
   assert.equal(await page.evaluate('document.querySelector("canvas")'), null);
   await page.click('[data-node="label"]');
-  assert.match(await page.evaluate('document.querySelector(".side").innerText'), /method\s+auto/);
+  assert.match(await page.evaluate('document.querySelector(".side").innerText'), /method\s+angle/);
   assert.deepEqual(page.complaints, []);
 });

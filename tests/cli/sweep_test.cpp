@@ -103,9 +103,9 @@ TEST_F(SweepCli, runs_shared_prefixes_once_and_gives_what_single_runs_give) {
 
   // 6 measures of unions, and how the sample was chosen.
   const json again = sweep(small, folder.file("out"));
-  EXPECT_EQ(count_statuses(again),
-            (std::map<std::string, int>{{"hit", static_cast<int>(report.at("nodes").size()) - 7},
-                                        {"skipped", 7}}));
+  EXPECT_EQ(
+      count_statuses(again),
+      (std::map<std::string, int>{{"hit", static_cast<int>(report.at("nodes").size()) - 7}, {"skipped", 7}}));
 }
 
 TEST_F(SweepCli, another_strategy_costs_only_what_changed) {

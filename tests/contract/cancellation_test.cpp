@@ -2,10 +2,10 @@
 //
 // A host of its own runs the nodes of all graphs across the plugin boundary and takes the time between two
 // looks at bf_run::cancelled, and from a cancellation to the end. It is CPU time of the process, so that a
-// busy machine does not matter. BALLFLOW_TEST_SAMPLES=250000 makes the models large (tools/nightly): then a
-// second is the limit that a user meets, and a graph is left out when other graphs have run all its nodes
-// with the same choices. BALLFLOW_TEST_GRAPH=medial_axis, or =prune:greedy, runs one graph, with all
-// strategies or with one.
+// busy machine does not matter. A graph is left out when other graphs have run all its nodes with the same
+// choices. BALLFLOW_TEST_SAMPLES=250000 makes the models large (tools/nightly): then a second is the limit
+// that a user meets. BALLFLOW_TEST_GRAPH=medial_axis, or =prune:greedy, runs one graph, with all strategies
+// or with one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -146,7 +146,8 @@ double limit() {
 #else
   constexpr double slower = 1;
 #endif
-  return large() ? 1.0 : 0.12 * slower;
+  // CPU time too grows when others share the cores: 0.11 s were seen where a quiet machine takes half of it.
+  return large() ? 1.0 : 0.25 * slower;
 }
 
 class Cancellation : public testing::Test {
@@ -254,7 +255,9 @@ TEST_F(Cancellation, every_node_ends_soon_after_it_was_cancelled_at_any_moment) 
     const Dag dag = load_graph(file, registry());
     std::vector<Setting> settings;
     if (dag.params.count("input") != 0) settings.push_back({"input", model});
-    if (dag.params.count("repair") != 0) settings.push_back({"repair", "topology"});
+    // As many balls as samples were asked for; how samples are chosen follows below.
+    if (dag.params.count("sampling") != 0) settings.push_back({"sampling", "vertices"});
+    if (dag.params.count("growth") != 0) settings.push_back({"growth", "additive"});
     // A number of balls is not reached by every strategy; none keeps all of them.
     if (dag.params.count("strategy") == 0 || dag.params.count("k") != 0) {
       if (is_wanted(entry.path(), "")) runs.emplace_back(file, settings);
@@ -267,6 +270,11 @@ TEST_F(Cancellation, every_node_ends_soon_after_it_was_cancelled_at_any_moment) 
       runs.back().second.push_back({"strategy", strategy.path().stem().string()});
     }
   }
+  for (const char* sampling : {"auto", "wrap"}) {
+    const std::string file = test::source_file("graphs/dmt.json");
+    if (is_wanted(file, ""))
+      runs.push_back({file, {{"input", model}, {"delta", "0.3"}, {"sampling", sampling}}});
+  }
   // First those that keep all balls, so that nodes after the pruning meet many.
   const auto prunes = [](const auto& run) {
     return !run.second.empty() && run.second.back().value != "none";
@@ -277,7 +285,7 @@ TEST_F(Cancellation, every_node_ends_soon_after_it_was_cancelled_at_any_moment) 
   for (const auto& [file, settings] : runs) {
     SCOPED_TRACE(file + (settings.empty() ? "" : " " + settings.back().value));
     const Dag dag = load_graph(file, registry(), settings);
-    if (large() && !has_something_new(dag)) continue;
+    if (!has_something_new(dag)) continue;
     examine(dag, {});
     if (HasFatalFailure()) return;
   }

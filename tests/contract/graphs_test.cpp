@@ -42,10 +42,13 @@ std::vector<RunResult> run_with_threads(const Dag& dag, const std::vector<unsign
   return results;
 }
 
+/// Of two nodes with one key one runs and the other one takes its result, whichever comes first.
+bool has_result(NodeStatus status) { return status == NodeStatus::run || status == NodeStatus::hit; }
+
 void expect_equal_digests(const Dag& dag, const std::vector<RunResult>& results) {
   for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
     for (const RunResult& result : results) {
-      ASSERT_EQ(result.nodes[i].status, results[0].nodes[i].status)
+      ASSERT_EQ(has_result(result.nodes[i].status), has_result(results[0].nodes[i].status))
           << dag.nodes[i].path << ": " << result.nodes[i].cause;
       for (std::size_t port = 0; port < result.nodes[i].outputs.size(); ++port) {
         EXPECT_EQ(result.nodes[i].outputs[port].digest, results[0].nodes[i].outputs[port].digest)

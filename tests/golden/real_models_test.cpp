@@ -94,26 +94,25 @@ TEST_P(DefaultRun, keeps_the_topology_from_the_solid_to_the_medial_axis) {
   EXPECT_LE(summary["dmt/sampling/refine.points"]["count"].get<int>(), solid.samples);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Models, DefaultRun,
-    testing::Values(Solid{"eight.off.gz", {1, 2, 0}, 20'000, false},
-                    Solid{"panda_link1.obj.gz", {1, 0, 0}, 20'000, false},
-                    Solid{"femur_ICL_MRI.off.gz", {1, 0, 0}, 20'000, false},
-                    Solid{"three_holes.off.gz", {1, 3, 0}, 20'000, true},
-                    Solid{"fertility.off.gz", {1, 4, 0}, 20'000, true},
-                    Solid{"rocker_arm.obj.gz", {1, 1, 0}, 20'000, true},
-                    Solid{"knot2.off.gz", {2, 2, 0}, 20'000, true},
-                    Solid{"fandisk.off.gz", {1, 0, 0}, 20'000, true},
-                    Solid{"anchor_dense.off.gz", {1, 4, 0}, 20'000, true},
-                    Solid{"abc_00000801.obj.gz", {1, 9, 0}, 20'000, true},
-                    Solid{"scapula_48.stl.gz", {1, 0, 0}, 20'000, true},
-                    Solid{"crank_cse.obj.gz", {1, 12, 0}, 45'000, true},
-                    Solid{"occt_TR12J.stl.gz", {1, 22, 0}, 50'000, true},
-                    Solid{"cheese.off.gz", {1, 133, 0}, 85'000, true}),
-    [](const auto& instance) {
-      const std::string name = instance.param.file;
-      return name.substr(0, name.find('.'));
-    });
+INSTANTIATE_TEST_SUITE_P(Models, DefaultRun,
+                         testing::Values(Solid{"eight.off.gz", {1, 2, 0}, 20'000, false},
+                                         Solid{"panda_link1.obj.gz", {1, 0, 0}, 20'000, false},
+                                         Solid{"femur_ICL_MRI.off.gz", {1, 0, 0}, 20'000, false},
+                                         Solid{"three_holes.off.gz", {1, 3, 0}, 20'000, true},
+                                         Solid{"fertility.off.gz", {1, 4, 0}, 20'000, true},
+                                         Solid{"rocker_arm.obj.gz", {1, 1, 0}, 20'000, true},
+                                         Solid{"knot2.off.gz", {2, 2, 0}, 20'000, true},
+                                         Solid{"fandisk.off.gz", {1, 0, 0}, 20'000, true},
+                                         Solid{"anchor_dense.off.gz", {1, 4, 0}, 20'000, true},
+                                         Solid{"abc_00000801.obj.gz", {1, 9, 0}, 20'000, true},
+                                         Solid{"scapula_48.stl.gz", {1, 0, 0}, 20'000, true},
+                                         Solid{"crank_cse.obj.gz", {1, 12, 0}, 45'000, true},
+                                         Solid{"occt_TR12J.stl.gz", {1, 22, 0}, 50'000, true},
+                                         Solid{"cheese.off.gz", {1, 133, 0}, 85'000, true}),
+                         [](const auto& instance) {
+                           const std::string name = instance.param.file;
+                           return name.substr(0, name.find('.'));
+                         });
 
 }  // namespace
 }  // namespace ballflow
