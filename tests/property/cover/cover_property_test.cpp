@@ -145,7 +145,7 @@ TEST(cover_property, permuted_samples_permute_the_matrix) {
 TEST(cover_property, every_strategy_ends_in_a_cover_that_geometry_confirms) {
   EXPECT_TRUE(rc::check([] {
     const test::Scene scene = any_scene();
-    const CoverMatrix matrix = cover_matrix(scene.balls, scene.points);
+    const CoverMatrix matrix = cover_matrix(scene.balls, scene.points, {.uncovered = UncoveredPolicy::ball});
     const CoverState all = greedy(matrix.cover, {.mode = GreedyMode::all});
     const CoverState plain = greedy(matrix.cover);
     const CoverState mixed = greedy(ip_solve(reduce(matrix.cover), *make_lp_solve()));
