@@ -245,7 +245,9 @@ std::vector<std::int32_t> Refinery::samples_of_limited_cells() {
 InnerCells Refinery::refine_cells(const std::optional<Betti>& wanted) {
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
   int since = 0;  // rounds that did not lower the number of bad samples
-  for (;;) {
+  // Where the surface crosses itself the boundary stays bad at every scale.
+  constexpr int most_of_unknown = 3;
+  for (int round = 0;; ++round) {
     InnerCells cells = inner_cells(triangulation_);
     std::vector<std::int32_t> bad = cells.bad;
     if (bad.empty()) {
@@ -261,7 +263,7 @@ InnerCells Refinery::refine_cells(const std::optional<Betti>& wanted) {
     } else {
       ++since;
     }
-    if (bad.empty() || since == 3 || full()) return cells;
+    if (bad.empty() || since == 3 || full() || (!wanted && round == most_of_unknown)) return cells;
     refine_at(bad, cells);
     refine_balls();
   }
@@ -399,7 +401,7 @@ Refined refine(const TriangleMesh& mesh, const PointSet& points, const std::opti
   constexpr int most_separations = 4;
   for (int i = 0; i < most_separations; ++i) {
     const std::optional<Betti> aim = wanted ? wanted : cells.betti;
-    if ((aim && balls == *aim) || refinery.full() || !refinery.separate_balls()) break;
+    if (!aim || balls == *aim || refinery.full() || !refinery.separate_balls()) break;
     refinery.refine_balls();
     cells = refinery.refine_cells(wanted);
     balls = refinery.betti_of_balls();

@@ -49,6 +49,7 @@ struct Refined {
 ///    samples where that shows, add points where dual edges of their facets cross the surface, go to 2.
 /// 4. While the union of the balls has other Betti numbers than it should (caps of balls can meet outside of
 ///    T): add the points next to the balls that meet without a common sample, go to 2. At most four times.
+///    Where nobody knows the topology of the solid 3 is done three times at most, and 4 only when T has one.
 ///
 /// The union of all inner balls contains T: the power diagram of all Delaunay balls is the Delaunay
 /// triangulation itself. So it has no holes inside however thin a wall is, as unions of polar balls have.

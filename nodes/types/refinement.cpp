@@ -26,11 +26,13 @@ std::string what_is_missing(const Refinement& report) {
         " triangles lie inside the solid, with the inside on both sides, and are left out: turn their shell "
         "over in the file if it bounds a cavity");
   }
-  if (!report.reached()) {
+  // Of a surface whose solid is unknown (it crosses itself, say) SolidTopology has said so.
+  const bool has_aim = report.wanted != Refinement::unknown || report.cells != Refinement::unknown;
+  if (has_aim && !report.reached()) {
     const auto& aim = report.wanted != Refinement::unknown ? report.wanted : report.cells;
     words.append(words.empty() ? "" : "; ").append("the union of the inner balls has ");
     words.append(describe(report.balls));
-    if (aim != Refinement::unknown) words.append(", the solid ").append(describe(aim));
+    words.append(", the solid ").append(describe(aim));
     words.append(": lower delta or floor");
     if (!report.limited.empty()) {
       const Vec3 p = report.limited[0];

@@ -165,6 +165,16 @@ TEST(refine, a_shell_inside_the_solid_that_bounds_nothing_is_left_out_and_told) 
   EXPECT_NE(what_is_missing(result.report).find("12 triangles lie inside the solid"), std::string::npos);
 }
 
+TEST(refine, solids_that_cross_each_other_are_refined_without_end_or_complaint) {
+  test::Mesh crossing = test::cube();
+  test::Mesh other = test::cube();
+  crossing.add(other.move({0.7, 0.6, 0.5}));
+  const Refined result = refine(crossing.mesh(), {}, std::nullopt, {});
+  EXPECT_EQ(result.report.complete, 1);
+  EXPECT_LT(result.points.points.size(), 60'000u);
+  EXPECT_EQ(inner_balls(result.points, crossing.mesh()).size() > 1000, true);
+}
+
 TEST(refine, smaller_delta_takes_more_samples) {
   const TriangleMesh mesh = generate(parse_shape("torus?n=3000"));
   RefineOptions coarse, fine;
