@@ -107,7 +107,7 @@ void RoundedPlaces::place_cells(Monitor& monitor) {
   vertices_.resize(cells_.size());
   positions_.resize(cells_.size());
   for (std::size_t i = 0; i < cells_.size(); ++i) {
-    if (i % 4096 == 0) monitor.step(0.8 + 0.2 * static_cast<double>(i) / static_cast<double>(cells_.size()));
+    if (i % 256 == 0) monitor.step(0.8 + 0.2 * static_cast<double>(i) / static_cast<double>(cells_.size()));
     const DelaunayCell& cell = cells_[i];
     VoronoiVertex& v = vertices_[i];
     v = {Place::out, balls() + static_cast<std::int32_t>(i)};
@@ -156,7 +156,7 @@ void RoundedPlaces::merge_coincident(Monitor& monitor) {
     return cell;
   };
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(cells_.size()); ++i) {
-    if (i % 65536 == 0) monitor.step(1);
+    if (i % 1024 == 0) monitor.step(1);
     if (vertices_[at(i)].place != Place::in) continue;
     for (const std::int32_t j : cells_[at(i)].neighbors) {
       if (j >= i || vertices_[at(j)].place != Place::in) continue;

@@ -44,7 +44,8 @@ struct Refined {
 /// 2. While a ball reaches farther than delta beyond the surface, or farther than the floor and wall_fraction
 ///    of the wall or slot that lies behind it: insert the surface point next to its centre, or where a wall
 ///    hides a sample from the centre that sample's mirror image on the wall. The deepest balls of a round
-///    go first. A new sample is farther from all others than the ball was deep, so this ends.
+///    go first. The point next to a centre is farther from all samples than the ball was deep, a mirror image
+///    at least lowest_floor, so this ends.
 /// 3. While the boundary of T is no surface, or has other Betti numbers than the solid: lower the floor at
 ///    samples where that shows, add points where dual edges of their facets cross the surface, go to 2.
 /// 4. While the union of the balls has other Betti numbers than it should (caps of balls can meet outside of

@@ -61,8 +61,7 @@ struct Refine {
         .above(0)
         .at_most(10)
         .doc(
-            "how far a ball may reach to the wrong side of the surface; half of it takes about three times "
-            "as "
+            "how far a ball may reach to the wrong side of the surface; half of it takes about twice as "
             "many samples on curved surfaces");
     d.param("floor", &Refine::options, &RefineOptions::floor)
         .unit("% of the longest bounding-box edge")

@@ -146,8 +146,7 @@ double limit() {
 #else
   constexpr double slower = 1;
 #endif
-  // CPU time too grows when others share the cores: 0.11 s were seen where a quiet machine takes half of it.
-  return large() ? 1.0 : 0.25 * slower;
+  return large() ? 1.0 : 0.12 * slower;
 }
 
 class Cancellation : public testing::Test {
