@@ -23,7 +23,7 @@ struct Membership {
 };
 
 /// A line of /proc/self/mountinfo about a hierarchy.
-struct Mount {
+struct MountPoint {
   std::string root;  // the group that is shown at the point
   std::string point;
   bool version_2 = false;
@@ -67,8 +67,8 @@ std::string unescaped(const std::string& text) {
   return plain;
 }
 
-std::vector<Mount> mounts(const std::string& root) {
-  std::vector<Mount> result;
+std::vector<MountPoint> mounts(const std::string& root) {
+  std::vector<MountPoint> result;
   std::ifstream in(root + "/proc/self/mountinfo");
   for (std::string line; std::getline(in, line);) {
     const std::vector<std::string> words = split(line, ' ');
@@ -82,7 +82,7 @@ std::vector<Mount> mounts(const std::string& root) {
 
 /// The group below the mount point, "" for the point itself; nothing when the mount shows another part of the
 /// tree.
-std::optional<std::string> below(const Mount& mount, const std::string& group) {
+std::optional<std::string> below(const MountPoint& mount, const std::string& group) {
   if (group.empty() || group[0] != '/') return std::nullopt;
   if (group.find("/..") != std::string::npos) return std::nullopt;  // outside the namespace of this process
   if (mount.root == "/") return group == "/" ? "" : group;
@@ -93,15 +93,15 @@ std::optional<std::string> below(const Mount& mount, const std::string& group) {
 
 /// Calls `look` with the folder of every group on the way up that can be seen. A container often sees its own
 /// group only, under another name: then that is looked at.
-void walk_up(const std::string& root, const std::vector<Mount>& all, const std::string& controller,
+void walk_up(const std::string& root, const std::vector<MountPoint>& all, const std::string& controller,
              const std::string& group, const std::function<void(const std::string& folder)>& look) {
-  std::vector<const Mount*> mounted;
-  for (const Mount& mount : all) {
+  std::vector<const MountPoint*> mounted;
+  for (const MountPoint& mount : all) {
     if (controller.empty() ? mount.version_2 : !mount.version_2 && has(mount.options, controller))
       mounted.push_back(&mount);
   }
   bool found = false;
-  for (const Mount* mount : mounted) {
+  for (const MountPoint* mount : mounted) {
     std::optional<std::string> path = below(*mount, group);
     if (!path) continue;
     found = true;
@@ -112,7 +112,7 @@ void walk_up(const std::string& root, const std::vector<Mount>& all, const std::
     }
   }
   if (found) return;
-  for (const Mount* mount : mounted) look(root + mount->point);
+  for (const MountPoint* mount : mounted) look(root + mount->point);
 }
 
 /// The first words of a file; none when it cannot be read.
@@ -163,7 +163,7 @@ ControlGroupLimits control_group_limits(const std::string& root) {
   const auto limit_processors = [&limits](std::optional<double> quota, std::optional<double> period) {
     if (quota && period && *quota > 0 && *period > 0) lower(limits.processors, *quota / *period);
   };
-  const std::vector<Mount> all = mounts(root);
+  const std::vector<MountPoint> all = mounts(root);
   for (const Membership& one : memberships(root)) {
     if (one.controllers.empty()) {
       walk_up(root, all, "", one.group, [&](const std::string& folder) {

@@ -88,22 +88,22 @@ void check_name(std::string_view what, std::string_view name, ExitCode code) {
   }
 }
 
-[[noreturn]] void refuse(const std::string& why) { throw BadArtifact("bad artifact: " + why); }
+[[noreturn]] void refuse_layout(const std::string& why) { throw BadArtifact("bad artifact: " + why); }
 
 std::uint64_t as_size(const SortedJson& value, const std::string& where) {
-  if (!value.is_number_unsigned()) refuse(where + " is not an unsigned integer");
+  if (!value.is_number_unsigned()) refuse_layout(where + " is not an unsigned integer");
   return value.get<std::uint64_t>();
 }
 
 const SortedJson& member(const SortedJson& object, const char* key, const std::string& where) {
   const auto found = object.find(key);
-  if (found == object.end()) refuse(where + " has no " + key);
+  if (found == object.end()) refuse_layout(where + " has no " + key);
   return *found;
 }
 
 const std::string& text_member(const SortedJson& object, const char* key) {
   const SortedJson& value = member(object, key, "__metadata__");
-  if (!value.is_string()) refuse(std::string("__metadata__.") + key + " is not a string");
+  if (!value.is_string()) refuse_layout(std::string("__metadata__.") + key + " is not a string");
   return value.get_ref<const std::string&>();
 }
 
@@ -114,7 +114,7 @@ struct ArrayPlace {
 
 ArrayPlace read_array(const std::string& name, const SortedJson& entry) {
   const std::string where = "array " + shown_text(name);
-  if (!entry.is_object() || entry.size() != 3) refuse(where + " is not {dtype, shape, data_offsets}");
+  if (!entry.is_object() || entry.size() != 3) refuse_layout(where + " is not {dtype, shape, data_offsets}");
   ArrayPlace place;
   place.array.name = name;
   const SortedJson& dtype = member(entry, "dtype", where);
@@ -122,29 +122,30 @@ ArrayPlace read_array(const std::string& name, const SortedJson& entry) {
     return dtype.is_string() && dtype.get_ref<const std::string&>() == d.file_name;
   });
   if (known == dtypes.end()) {
-    refuse(where + ": unknown dtype" + (dtype.is_string() ? ' ' + shown_text(dtype.get<std::string>()) : ""));
+    refuse_layout(where + ": unknown dtype" +
+                  (dtype.is_string() ? ' ' + shown_text(dtype.get<std::string>()) : ""));
   }
   place.array.dtype = known->id;
 
   const SortedJson& shape = member(entry, "shape", where);
-  if (!shape.is_array()) refuse(where + ": shape is not a list");
+  if (!shape.is_array()) refuse_layout(where + ": shape is not a list");
   if (shape.size() > BALLFLOW_MAX_RANK)
-    refuse(where + ": rank " + std::to_string(shape.size()) + " is too high");
+    refuse_layout(where + ": rank " + std::to_string(shape.size()) + " is too high");
   for (const SortedJson& extent : shape) place.array.shape.push_back(as_size(extent, where + ": shape"));
   const auto bytes = byte_count(place.array.shape, known->size);
-  if (!bytes) refuse(where + ": the size of its shape overflows");
+  if (!bytes) refuse_layout(where + ": the size of its shape overflows");
 
   const SortedJson& offsets = member(entry, "data_offsets", where);
-  if (!offsets.is_array() || offsets.size() != 2) refuse(where + ": data_offsets is not [begin, end]");
+  if (!offsets.is_array() || offsets.size() != 2) refuse_layout(where + ": data_offsets is not [begin, end]");
   place.begin = as_size(offsets[0], where + ": data_offsets");
   place.end = as_size(offsets[1], where + ": data_offsets");
-  if (place.end < place.begin) refuse(where + ": data_offsets run backwards");
+  if (place.end < place.begin) refuse_layout(where + ": data_offsets run backwards");
   if (place.end - place.begin != *bytes) {
-    refuse(where + ": data_offsets span " + std::to_string(place.end - place.begin) +
-           " bytes, its shape needs " + std::to_string(*bytes));
+    refuse_layout(where + ": data_offsets span " + std::to_string(place.end - place.begin) +
+                  " bytes, its shape needs " + std::to_string(*bytes));
   }
   if (place.begin % known->size != 0)
-    refuse(where + " is misaligned at offset " + std::to_string(place.begin));
+    refuse_layout(where + " is misaligned at offset " + std::to_string(place.begin));
   return place;
 }
 
@@ -253,15 +254,16 @@ std::string make_header(const std::string& type, int version, const std::string&
 
 ArtifactLayout read_layout(std::span<const std::byte> file) {
   constexpr std::size_t prefix = sizeof(std::uint64_t);
-  if (file.size() < prefix) refuse("it has " + std::to_string(file.size()) + " bytes, too few for a header");
-  if (reinterpret_cast<std::uintptr_t>(file.data()) % prefix != 0) refuse("its memory is misaligned");
+  if (file.size() < prefix)
+    refuse_layout("it has " + std::to_string(file.size()) + " bytes, too few for a header");
+  if (reinterpret_cast<std::uintptr_t>(file.data()) % prefix != 0) refuse_layout("its memory is misaligned");
   std::uint64_t length = 0;
   for (std::size_t i = 0; i < prefix; ++i) length |= std::to_integer<std::uint64_t>(file[i]) << (8 * i);
   if (length > header_limit)
-    refuse("its header claims " + std::to_string(length) + " bytes, more than 16 MB");
+    refuse_layout("its header claims " + std::to_string(length) + " bytes, more than 16 MB");
   if (length > file.size() - prefix) {
-    refuse("its header claims " + std::to_string(length) + " bytes, the file has " +
-           std::to_string(file.size()));
+    refuse_layout("its header claims " + std::to_string(length) + " bytes, the file has " +
+                  std::to_string(file.size()));
   }
   const std::string_view text(reinterpret_cast<const char*>(file.data()), prefix + length);
   const std::span<const std::byte> data = file.subspan(text.size());
@@ -271,15 +273,16 @@ ArtifactLayout read_layout(std::span<const std::byte> file) {
   try {
     header = parse(text.substr(prefix), header_depth, ExitCode::store);
   } catch (const Error& error) {
-    refuse(std::string("header: ") + error.what());
+    refuse_layout(std::string("header: ") + error.what());
   }
-  if (!header.is_object()) refuse("its header is not a JSON object");
+  if (!header.is_object()) refuse_layout("its header is not a JSON object");
   const SortedJson& metadata = member(header, "__metadata__", "the header");
   if (!metadata.is_object() || metadata.size() != 4) {
-    refuse("__metadata__ is not {ballflow, summary, type, version}");
+    refuse_layout("__metadata__ is not {ballflow, summary, type, version}");
   }
   if (text_member(metadata, "ballflow") != format_version) {
-    refuse("format version " + shown_text(text_member(metadata, "ballflow")) + " is not " + format_version);
+    refuse_layout("format version " + shown_text(text_member(metadata, "ballflow")) + " is not " +
+                  format_version);
   }
   ArtifactLayout layout;
   layout.type = text_member(metadata, "type");
@@ -287,24 +290,24 @@ ArtifactLayout read_layout(std::span<const std::byte> file) {
   const std::string& version = text_member(metadata, "version");
   const auto parsed = std::from_chars(version.data(), version.data() + version.size(), layout.version);
   if (parsed.ec != std::errc() || parsed.ptr != version.data() + version.size()) {
-    refuse("version " + shown_text(version) + " is not a number");
+    refuse_layout("version " + shown_text(version) + " is not a number");
   }
   try {
     if (canonical_json(layout.summary, ExitCode::store) != layout.summary) {
-      refuse("its summary is not in canonical form");
+      refuse_layout("its summary is not in canonical form");
     }
   } catch (const Error& error) {
-    refuse(std::string("summary: ") + error.what());
+    refuse_layout(std::string("summary: ") + error.what());
   }
-  if (layout.summary.front() != '{') refuse("its summary is not a JSON object");
+  if (layout.summary.front() != '{') refuse_layout("its summary is not a JSON object");
 
   std::vector<ArrayPlace> places;
   for (const auto& [name, entry] : header.items()) {
     if (name == "__metadata__") continue;
     places.push_back(read_array(name, entry));
     if (places.back().end > data.size()) {
-      refuse("array " + shown_text(name) + " ends at " + std::to_string(places.back().end) +
-             ", the data at " + std::to_string(data.size()));
+      refuse_layout("array " + shown_text(name) + " ends at " + std::to_string(places.back().end) +
+                    ", the data at " + std::to_string(data.size()));
     }
     places.back().array.data = data.data() + places.back().begin;
   }
@@ -314,20 +317,21 @@ ArtifactLayout read_layout(std::span<const std::byte> file) {
   std::uint64_t end = 0;
   for (ArrayPlace& place : places) {
     const std::string where = "array " + shown_text(place.array.name);
-    if (place.begin < end) refuse(where + " overlaps another array");
-    if (place.begin > end) refuse("there is a hole in the data before " + where);
+    if (place.begin < end) refuse_layout(where + " overlaps another array");
+    if (place.begin > end) refuse_layout("there is a hole in the data before " + where);
     end = place.end;
     layout.arrays.push_back(std::move(place.array));
   }
-  if (end != data.size()) refuse(std::to_string(data.size() - end) + " bytes of data belong to no array");
+  if (end != data.size())
+    refuse_layout(std::to_string(data.size() - end) + " bytes of data belong to no array");
 
   // Whatever else may be odd about the header (order, spaces, escapes, padding) shows here.
   try {
     layout.header = make_header(layout.type, layout.version, layout.summary, layout.arrays, ExitCode::store);
   } catch (const Error& error) {
-    refuse(error.what());
+    refuse_layout(error.what());
   }
-  if (layout.header != text) refuse("its header is not in canonical form");
+  if (layout.header != text) refuse_layout("its header is not in canonical form");
   return layout;
 }
 

@@ -10,8 +10,6 @@
 namespace ballflow {
 namespace {
 
-constexpr std::int64_t second = 1'000'000'000;
-
 std::string node_of(const std::string& manifest) {
   const Json json = Json::parse(manifest, nullptr, false);
   const auto node = json.is_object() ? json.find("node") : json.end();

@@ -60,9 +60,9 @@ std::vector<StoredFile> files_below(const StoreFolders& folders, const OpenFile&
 /// Moves a file away, where its absence is a miss; false when that cannot be.
 bool to_quarantine(const StoreFolders& folders, const OpenFile& shard, const std::string& hex);
 
-inline std::int64_t nanoseconds(const timespec& time) {
-  return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
-}
+inline constexpr std::int64_t second = 1'000'000'000;  // in nanoseconds
+
+inline std::int64_t nanoseconds(const timespec& time) { return time.tv_sec * second + time.tv_nsec; }
 
 inline std::string system_message(int negative_errno) {
   return std::generic_category().message(-negative_errno);
@@ -73,7 +73,7 @@ inline std::uint64_t disk_bytes(std::uint64_t size) { return (size + 4095) / 409
 
 /// The time of last use of an action entry or a blob is the mtime of its file, set anew when it is used and
 /// older than this (nanoseconds).
-inline constexpr std::int64_t touch_interval = std::int64_t{3600} * 1'000'000'000;
+inline constexpr std::int64_t touch_interval = 3600 * second;
 
 /// Records that an open file is used now.
 void touch(const StoreFolders& folders, const OpenFile& file, const struct stat& status);

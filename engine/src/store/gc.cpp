@@ -15,7 +15,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::int64_t second = 1'000'000'000;
 constexpr std::int64_t clock_slack = 60 * second;  // between this machine and a file server
 // Nobody else writes `usage` while a count is under way, and files go without being subtracted (by hand, by a
 // collector that was killed): count anew now and then.

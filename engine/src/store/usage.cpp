@@ -6,15 +6,14 @@
 namespace ballflow {
 namespace {
 
-constexpr const char* name = "usage";
+constexpr const char* usage_file = "usage";
 constexpr std::uint64_t most_bytes = 1u << 20;   // of the file
 constexpr std::uint64_t account_at = 64u << 20;  // lost from the count at most when a process is killed
-constexpr std::int64_t second = 1'000'000'000;
 constexpr int write_flags = O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_NONBLOCK;
 
 /// In one call, so that lines of several processes do not mix.
 void write_line(const StoreFolders& folders, int flags, const std::string& line) {
-  const OpenFile file(*folders.files, folders.files->open(folders.root.get(), name, flags, 0644));
+  const OpenFile file(*folders.files, folders.files->open(folders.root.get(), usage_file, flags, 0644));
   if (file.is_open()) folders.files->write(file.get(), line.data(), line.size());
 }
 
@@ -32,7 +31,7 @@ void WrittenBytes::account() {
 }
 
 Usage read_usage(const StoreFolders& folders) {
-  const auto text = read_trusted(folders, folders.root, name, most_bytes);
+  const auto text = read_trusted(folders, folders.root, usage_file, most_bytes);
   if (!text) return {};
   Usage usage;
   // A line that is cut off or unknown is skipped: the total is approximate anyway.

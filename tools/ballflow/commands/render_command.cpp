@@ -154,16 +154,16 @@ std::vector<show::Layer*> layers_named(std::vector<Source>& sources, const std::
 }
 
 /// "LAYER=VALUE", or "VALUE" for all layers.
-struct Setting {
+struct DrawSetting {
   std::vector<show::Layer*> layers;
   std::string value;
 };
 
-Setting setting_of(std::vector<Source>& sources, const std::string& text) {
+DrawSetting setting_of(std::vector<Source>& sources, const std::string& text) {
   const std::size_t equals = text.rfind('=');
   if (equals != std::string::npos)
     return {layers_named(sources, text.substr(0, equals)), text.substr(equals + 1)};
-  Setting setting{{}, text};
+  DrawSetting setting{{}, text};
   for (Source& source : sources) {
     for (show::Layer& layer : source.layers) setting.layers.push_back(&layer);
   }
@@ -171,7 +171,7 @@ Setting setting_of(std::vector<Source>& sources, const std::string& text) {
 }
 
 void colour(std::vector<Source>& sources, const std::string& text) {
-  const Setting setting = setting_of(sources, text);
+  const DrawSetting setting = setting_of(sources, text);
   bool any = setting.value == "none";
   std::vector<std::string> known;
   for (show::Layer* layer : setting.layers) {
@@ -194,7 +194,7 @@ void colour(std::vector<Source>& sources, const std::string& text) {
 }
 
 void set_opacity(std::vector<Source>& sources, const std::string& text) {
-  const Setting setting = setting_of(sources, text);
+  const DrawSetting setting = setting_of(sources, text);
   const auto value = show::number_in(setting.value);
   if (!value || !(*value > 0 && *value <= 1)) {
     throw Error(ExitCode::usage, "--opacity " + text + ": not a number above 0 and at most 1",

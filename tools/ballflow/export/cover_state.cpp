@@ -17,7 +17,7 @@ void write_lp(const Artifact& artifact, OutputFile& out) {
   geometry::save_lp(typed<CoverState>(artifact), [&out](std::string_view text) { out << text; });
 }
 
-void write_csv(const Artifact& artifact, OutputFile& out) {
+void write_cover_csv(const Artifact& artifact, OutputFile& out) {
   const auto cover = typed<CoverState>(artifact);
   out << "ball,how\n";
   for (std::size_t i = 0; i < cover.chosen.size(); ++i) {
@@ -30,7 +30,7 @@ void write_csv(const Artifact& artifact, OutputFile& out) {
 TypeFormats cover_state_formats() {
   // json stays the default: what most users want of a cover is its summary.
   return {"CoverState",
-          {generic_formats().front(), {"scp", write_scp}, {"lp", write_lp}, {"csv", write_csv}}};
+          {generic_formats().front(), {"scp", write_scp}, {"lp", write_lp}, {"csv", write_cover_csv}}};
 }
 
 }  // namespace ballflow

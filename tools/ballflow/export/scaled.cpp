@@ -18,7 +18,7 @@ struct Lengths {
   std::vector<std::string_view> arrays;
 };
 
-const std::vector<Lengths>& table() {
+const std::vector<Lengths>& lengths_of_types() {
   static const std::vector<Lengths> types = {
       {"Balls", {"centers", "radii"}},       {"Growth", {"centers", "radii", "grown_radii", "limits"}},
       {"MedialAxis", {"vertices", "radii"}}, {"PointSet", {"points"}},
@@ -29,11 +29,12 @@ const std::vector<Lengths>& table() {
 }  // namespace
 
 ArtifactPtr scaled(const ArtifactPtr& artifact, double factor) {
-  const auto lengths = std::find_if(table().begin(), table().end(),
+  const auto lengths = std::find_if(lengths_of_types().begin(), lengths_of_types().end(),
                                     [&](const Lengths& entry) { return entry.type == artifact->type(); });
-  if (lengths == table().end()) {
+  if (lengths == lengths_of_types().end()) {
     std::string types;
-    for (const Lengths& entry : table()) types.append(types.empty() ? "" : ", ").append(entry.type);
+    for (const Lengths& entry : lengths_of_types())
+      types.append(types.empty() ? "" : ", ").append(entry.type);
     throw Error(ExitCode::usage, "--scale: a " + artifact->type() + " is not scaled",
                 "types that are: " + types);
   }

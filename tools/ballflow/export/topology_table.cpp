@@ -6,7 +6,7 @@
 namespace ballflow {
 namespace {
 
-void write_csv(const Artifact& artifact, OutputFile& out) {
+void write_topology_csv(const Artifact& artifact, OutputFile& out) {
   const auto table = typed<geometry::TopologyTable>(artifact);
   out << "stage,euler,components,tunnels,cavities\n";
   for (std::size_t row = 0; row < table.size(); ++row) {
@@ -24,7 +24,7 @@ void write_csv(const Artifact& artifact, OutputFile& out) {
 }  // namespace
 
 TypeFormats topology_table_formats() {
-  return {"TopologyTable", {generic_formats().front(), {"csv", write_csv}}};
+  return {"TopologyTable", {generic_formats().front(), {"csv", write_topology_csv}}};
 }
 
 }  // namespace ballflow

@@ -8,14 +8,8 @@
 namespace ballflow::inspect {
 namespace {
 
-using geometry::Vec3;
-
-std::string counted(std::int64_t n, const std::string& one, const std::string& many) {
+std::string count_of(std::int64_t n, const std::string& one, const std::string& many) {
   return std::to_string(n) + " " + (n == 1 ? one : many);
-}
-
-std::string place(Vec3 p) {
-  return "(" + short_number(p.x) + ", " + short_number(p.y) + ", " + short_number(p.z) + ")";
 }
 
 /// Collects findings and the options that follow from them.
@@ -77,7 +71,7 @@ class Adviser {
       places += (i == 0 ? "" : ", ") +
                 place(report_.model.points.points[static_cast<std::size_t>(strays.points[i])]);
     options_.push_back(sample_node + ".strays=drop");
-    say(counted(static_cast<std::int64_t>(strays.points.size()), "point lies", "points lie") + " " +
+    say(count_of(static_cast<std::int64_t>(strays.points.size()), "point lies", "points lie") + " " +
             short_number(strays.nearest / strays.diagonal) +
             " times as far away as the others are large: " + places,
         "leave what is no part of the shape out: --set " + options_.back());
@@ -87,10 +81,10 @@ class Adviser {
     const geometry::Gaps& gaps = look_.gaps;
     if (gaps.open_edges == 0) return;
     const geometry::Rim& rim = gaps.rims.front();
-    const std::string what = "the surface is open: " + counted(gaps.open_edges, "edge", "edges") +
+    const std::string what = "the surface is open: " + count_of(gaps.open_edges, "edge", "edges") +
                              " with one triangle in " +
-                             counted(static_cast<std::int64_t>(gaps.rims.size()), "rim", "rims") +
-                             ", the longest with " + counted(rim.edges, "edge", "edges") + " and " +
+                             count_of(static_cast<std::int64_t>(gaps.rims.size()), "rim", "rims") +
+                             ", the longest with " + count_of(rim.edges, "edge", "edges") + " and " +
                              short_number(rim.size) + " wide around " + place(rim.middle);
     if (!gaps.small) {
       say(what, "no welding closes it: fill the holes, or expect poles near them to be labelled by a vote");
@@ -99,7 +93,7 @@ class Adviser {
     options_.push_back(sample_node + ".weld=" + short_number(gaps.small->tolerance));
     say(what, "weld vertices that are nearly equal: --set " + options_.back() +
                   (gaps.small->left == 0 ? " closes all of it"
-                                         : " closes all but " + counted(gaps.small->left, "edge", "edges") +
+                                         : " closes all but " + count_of(gaps.small->left, "edge", "edges") +
                                                "; the holes that are left have to be filled") +
                   (report_.welded && report_.welded->betti
                        ? ", and gives a solid with " + geometry::describe(*report_.welded->betti)
@@ -109,7 +103,7 @@ class Adviser {
   void connected() {
     const geometry::MeshTopology& mesh = look_.topology;
     if (mesh.nonmanifold_edges > 0) {
-      say(counted(mesh.nonmanifold_edges, "edge belongs", "edges belong") + " to more than two triangles",
+      say(count_of(mesh.nonmanifold_edges, "edge belongs", "edges belong") + " to more than two triangles",
           look_.closed ? "what is inside is known all the same; the topology of the solid is not"
                        : "remove inner walls and parts that only touch");
     } else if (!mesh.manifold && mesh.boundary_edges == 0) {
@@ -119,8 +113,8 @@ class Adviser {
     if (!look_.orientable) {
       say("the surface is not orientable: it has only one side", "no inside can be told; cut it or close it");
     } else if (look_.turned > 0) {
-      say(counted(look_.turned, "triangle faces another way than its",
-                  "triangles face another way than their") +
+      say(count_of(look_.turned, "triangle faces another way than its",
+                   "triangles face another way than their") +
               " neighbours",
           "they are turned over for the labels; nothing has to be done");
     }
@@ -131,14 +125,14 @@ class Adviser {
     const geometry::SelfIntersections& found =
         report_.welded ? report_.welded->intersections : look_.intersections;
     if (!found.flat.empty()) {
-      say(counted(static_cast<std::int64_t>(found.flat.size()), "triangle has", "triangles have") +
+      say(count_of(static_cast<std::int64_t>(found.flat.size()), "triangle has", "triangles have") +
               " three different corners and no area",
           "collapse them where the mesh was made; the topology of the solid is not compared otherwise");
     }
     if (!found.pairs.empty()) {
       say((found.all ? "" : "more than ") +
-              counted(static_cast<std::int64_t>(found.pairs.size()), "pair of triangles crosses",
-                      "pairs of triangles cross") +
+              count_of(static_cast<std::int64_t>(found.pairs.size()), "pair of triangles crosses",
+                       "pairs of triangles cross") +
               ": the surface intersects itself, first at " +
               place(geometry::place_of(report_.model.mesh, found.pairs.front())),
           look_.closed
@@ -158,11 +152,11 @@ class Adviser {
       say("the surface faces inwards", "it is turned over for the labels; nothing has to be done");
     }
     if (turned > 0) {
-      say(counted(turned, "shell faces", "shells face") + " inwards and bounds no cavity",
+      say(count_of(turned, "shell faces", "shells face") + " inwards and bounds no cavity",
           "they count as solids; turn them in the file if they should not");
     }
     if (idle > 0) {
-      say(counted(idle, "shell lies", "shells lie") +
+      say(count_of(idle, "shell lies", "shells lie") +
               " inside the solid and faces outwards as the shell around does: it bounds nothing",
           "turn it over in the file if it is a cavity, else remove it: its samples only cost balls");
     }
@@ -173,11 +167,11 @@ class Adviser {
     const geometry::Widths& widths = *look_.widths;
     std::string what;
     if (widths.thin_walls > 0) {
-      what = counted(widths.thin_walls, "place is", "places are") + " thinner than its triangle is long, " +
+      what = count_of(widths.thin_walls, "place is", "places are") + " thinner than its triangle is long, " +
              short_number(widths.wall->width) + " at the thinnest, at " + place(widths.wall->from);
     }
     if (widths.narrow_slots > 0) {
-      what += (what.empty() ? "" : "; ") + counted(widths.narrow_slots, "place has", "places have") +
+      what += (what.empty() ? "" : "; ") + count_of(widths.narrow_slots, "place has", "places have") +
               " another one opposite as near, " + short_number(widths.slot->width) + " at the nearest, at " +
               place(widths.slot->from);
     }

@@ -5,7 +5,7 @@ namespace {
 
 using geometry::Vec3;
 
-constexpr std::size_t most_places = 10, most_shells = 1000;
+constexpr std::size_t listed_places = 10, listed_shells = 1000;
 
 Json point(Vec3 p) { return {p.x, p.y, p.z}; }
 
@@ -40,7 +40,7 @@ Json first(const std::vector<T>& values, std::size_t most) {
 Json mesh(const ModelReport& report) {
   const geometry::Look& look = report.look;
   Json crossings = Json::array();
-  for (std::size_t i = 0; i < std::min(look.intersections.pairs.size(), most_places); ++i) {
+  for (std::size_t i = 0; i < std::min(look.intersections.pairs.size(), listed_places); ++i) {
     const auto& pair = look.intersections.pairs[i];
     crossings.push_back({{"triangles", pair}, {"place", point(geometry::place_of(report.model.mesh, pair))}});
   }
@@ -58,13 +58,13 @@ Json mesh(const ModelReport& report) {
         {"repeated", report.model.repeated_faces},
         {"cancelled", report.model.cancelled_faces}}},
       {"flat_triangles",
-       {{"count", look.intersections.flat.size()}, {"first", first(look.intersections.flat, most_places)}}},
+       {{"count", look.intersections.flat.size()}, {"first", first(look.intersections.flat, listed_places)}}},
       {"self_intersections",
        {{"count", look.intersections.pairs.size()},
         {"all", look.intersections.all},
         {"first", std::move(crossings)}}}};
   Json rims = Json::array();
-  for (std::size_t i = 0; i < std::min(look.gaps.rims.size(), most_places); ++i) {
+  for (std::size_t i = 0; i < std::min(look.gaps.rims.size(), listed_places); ++i) {
     const geometry::Rim& rim = look.gaps.rims[i];
     rims.push_back(
         {{"edges", rim.edges}, {"length", rim.length}, {"middle", point(rim.middle)}, {"size", rim.size}});
@@ -87,7 +87,7 @@ Json mesh(const ModelReport& report) {
     json["solid"]["volume"] = look.shells->volume();
     json["solid"]["inside_out"] = look.shells->inside_out;
     json["shells"] = Json::array();
-    for (std::size_t i = 0; i < std::min(look.shells->shells.size(), most_shells); ++i)
+    for (std::size_t i = 0; i < std::min(look.shells->shells.size(), listed_shells); ++i)
       json["shells"].push_back(shell(look.shells->shells[i]));
     json["shell_count"] = look.shells->shells.size();
   }
@@ -124,7 +124,7 @@ Json json_of(const ModelReport& report) {
                 {{"count", look.strays.points.size()},
                  {"nearest", look.strays.nearest},
                  {"diagonal", look.strays.diagonal},
-                 {"first", first(look.strays.points, most_places)}}},
+                 {"first", first(look.strays.points, listed_places)}}},
                {"reading", report.read},
                {"run",
                 {{"samples", report.samples < 0 ? Json(nullptr) : Json(report.samples)},

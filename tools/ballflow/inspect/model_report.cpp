@@ -33,6 +33,10 @@ std::string words_of(geometry::MeshFormat format, std::uint64_t file_bytes, std:
 
 }  // namespace
 
+std::string place(geometry::Vec3 p) {
+  return "(" + short_number(p.x) + ", " + short_number(p.y) + ", " + short_number(p.z) + ")";
+}
+
 std::string short_number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.4g", value);

@@ -49,5 +49,7 @@ Json json_of(const ModelReport& report);
 
 /// "1.234", "2.5e-05": four digits.
 std::string short_number(double value);
+/// "(1.5, 0, -2)".
+std::string place(geometry::Vec3 p);
 
 }  // namespace ballflow::inspect

@@ -24,10 +24,6 @@ std::string counted(std::int64_t n, const std::string& one, const std::string& m
   return grouped(n) + " " + (n == 1 ? one : many);
 }
 
-std::string place(Vec3 p) {
-  return "(" + short_number(p.x) + ", " + short_number(p.y) + ", " + short_number(p.z) + ")";
-}
-
 /// Lines with a name before them, broken between words.
 class Lines {
  public:

@@ -1,6 +1,7 @@
 // How reports are read: a name that is not there is null.
 #pragma once
 
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -12,6 +13,11 @@ inline const nlohmann::json& member(const nlohmann::json& object, const std::str
   if (!object.is_object()) return null;
   const auto found = object.find(name);
   return found == object.end() ? null : *found;
+}
+
+/// The number that a value is; NaN when it is none.
+inline double number_of(const nlohmann::json& value) {
+  return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace ballflow

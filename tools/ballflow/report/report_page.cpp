@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 
@@ -21,9 +20,6 @@ namespace ballflow::report {
 namespace {
 
 using Value = nlohmann::json;
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-double number_of(const Value& value) { return value.is_number() ? value.get<double>() : unknown; }
 
 std::string seconds_text(double seconds) { return number(std::round(seconds * 1000) / 1000) + " s"; }
 

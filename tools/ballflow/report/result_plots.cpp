@@ -14,10 +14,6 @@ namespace ballflow::report {
 namespace {
 
 using Value = nlohmann::json;
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-double number_of(const Value& value) { return value.is_number() ? value.get<double>() : unknown; }
-
 /// The rows of a table of results by the axes of a sweep.
 class Rows {
  public:
@@ -48,7 +44,8 @@ class Rows {
   const std::map<std::string, std::vector<std::size_t>>& groups() const { return groups_; }
   double value(std::size_t row, const std::string& column) const {
     const auto at = find(column);
-    return at < table_.columns.size() ? number_of(table_.rows[row][at]) : unknown;
+    return at < table_.columns.size() ? number_of(table_.rows[row][at])
+                                      : std::numeric_limits<double>::quiet_NaN();
   }
   bool has(const std::string& column) const {
     for (std::size_t row = 0; row < table_.rows.size(); ++row) {

@@ -30,13 +30,6 @@ struct Running {
   double last_line = 0;  // seconds after the start at which a plain line was last printed
 };
 
-/// Bytes of this process in memory; 0 where the system does not say.
-std::uint64_t resident_bytes() {
-  std::ifstream file("/proc/self/statm");
-  std::uint64_t all = 0, resident = 0;
-  return file >> all >> resident ? resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) : 0;
-}
-
 class Display final : public EventSink {
  public:
   Display(const Dag& dag, bool live, Expectations expectations)
@@ -230,6 +223,12 @@ class Nothing final : public EventSink {
 };
 
 }  // namespace
+
+std::uint64_t resident_bytes() {
+  std::ifstream file("/proc/self/statm");
+  std::uint64_t all = 0, resident = 0;
+  return file >> all >> resident ? resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) : 0;
+}
 
 std::unique_ptr<EventSink> progress_display(const Dag& dag, bool live, Expectations expectations) {
   return std::make_unique<Display>(dag, live, std::move(expectations));

@@ -1,6 +1,7 @@
 // What a run looks like while it runs: a live block on a terminal, plain lines in a pipe.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -15,6 +16,8 @@ namespace ballflow::cli {
 std::string grouped(std::int64_t number);
 /// "0.012 s", "1.24 s", "2 min 05 s".
 std::string duration(double seconds);
+/// Bytes of this process in memory; 0 where the system does not say.
+std::uint64_t resident_bytes();
 /// What an output is, in words: "35 676 inner balls".
 std::string describe(const OutputEntry& output);
 /// The outputs of a node in one line.

@@ -1,23 +1,11 @@
-#include <unistd.h>
-
 #include <cmath>
-#include <cstdio>
 #include <map>
 
 #include "terminal/event_lines.hpp"
+#include "terminal/terminal.hpp"
 
 namespace ballflow::cli {
 namespace {
-
-/// Resident memory of this process now, or 0.
-std::uint64_t resident_bytes() {
-  std::FILE* file = std::fopen("/proc/self/statm", "r");
-  if (file == nullptr) return 0;
-  unsigned long long total = 0, resident = 0;
-  const int read = std::fscanf(file, "%llu %llu", &total, &resident);
-  std::fclose(file);
-  return read == 2 ? resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) : 0;
-}
 
 class ChromeTrace final : public Trace {
  public:

@@ -4,16 +4,11 @@
 #include <ctime>
 
 #include "ballflow/graph.hpp"
+#include "document_fixture.hpp"
 #include "test_data.hpp"
-#include "toy_nodes.hpp"
 
 namespace ballflow {
 namespace {
-
-const Registry& registry() {
-  static const Registry toy = test::toy_registry();
-  return toy;
-}
 
 std::string shown(const std::vector<Diagnostic>& findings) {
   std::string text;

@@ -22,12 +22,6 @@ Dag load(const std::string& file, const std::vector<Setting>& settings = {}) {
   return load_graph(file, registry, settings);
 }
 
-std::vector<std::string> paths(const Dag& dag) {
-  std::vector<std::string> result;
-  for (const DagNode& node : dag.nodes) result.push_back(node.path);
-  return result;
-}
-
 const char* const chain = R"({
   // a comment
   "doc": "Three nodes.",

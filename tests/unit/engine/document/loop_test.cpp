@@ -2,16 +2,11 @@
 #include <gtest/gtest.h>
 
 #include "ballflow/graph.hpp"
+#include "document_fixture.hpp"
 #include "test_data.hpp"
-#include "toy_nodes.hpp"
 
 namespace ballflow {
 namespace {
-
-const Registry& registry() {
-  static const Registry toy = test::toy_registry();
-  return toy;
-}
 
 struct graph_loop : testing::Test {
   /// A graph around the loop l, whose text begins in line 2, column 1.

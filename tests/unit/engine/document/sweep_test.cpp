@@ -6,18 +6,13 @@
 #include <set>
 
 #include "ballflow/graph.hpp"
+#include "document_fixture.hpp"
 #include "test_data.hpp"
-#include "toy_nodes.hpp"
 
 namespace ballflow {
 namespace {
 
 namespace fs = std::filesystem;
-
-const Registry& registry() {
-  static const Registry toy = test::toy_registry();
-  return toy;
-}
 
 /// load -> grow -> match; `sections` come first, in line 1.
 std::string graph_with(const std::string& sections) {
@@ -34,20 +29,14 @@ std::string graph_with(const std::string& sections) {
   "outputs": { "cover": "match.cover", "named": "name.balls" } })";
 }
 
-Dag parse(const std::string& sections, const SweepOptions& options = {},
-          const std::vector<Setting>& settings = {}) {
+Dag parse_with(const std::string& sections, const SweepOptions& options = {},
+               const std::vector<Setting>& settings = {}) {
   return parse_graph(graph_with(sections), "g.json", registry(), settings, options);
 }
 
 std::vector<std::string> names(const Dag& dag) {
   std::vector<std::string> result;
   for (const Variant& variant : dag.variants) result.push_back(variant.name);
-  return result;
-}
-
-std::vector<std::string> paths(const Dag& dag) {
-  std::vector<std::string> result;
-  for (const DagNode& node : dag.nodes) result.push_back(node.path);
   return result;
 }
 
@@ -74,7 +63,7 @@ std::string complaints_of(const std::string& sections, const SweepOptions& optio
 }
 
 TEST(sweep, product_takes_every_combination_the_last_axis_fastest) {
-  const Dag dag = parse(R"("sweep": {"axes": {"epsilon": [0.1, 2], "label": ["a", "b", "c"]}},)");
+  const Dag dag = parse_with(R"("sweep": {"axes": {"epsilon": [0.1, 2], "label": ["a", "b", "c"]}},)");
   EXPECT_EQ(names(dag),
             (std::vector<std::string>{"epsilon=0.1,label=a", "epsilon=0.1,label=b", "epsilon=0.1,label=c",
                                       "epsilon=2,label=a", "epsilon=2,label=b", "epsilon=2,label=c"}));
@@ -85,18 +74,19 @@ TEST(sweep, product_takes_every_combination_the_last_axis_fastest) {
 }
 
 TEST(sweep, zip_takes_values_side_by_side) {
-  const Dag dag = parse(R"("sweep": {"axes": {"epsilon": [0.1, 2], "label": ["a", "b"]}, "mode": "zip"},)");
+  const Dag dag =
+      parse_with(R"("sweep": {"axes": {"epsilon": [0.1, 2], "label": ["a", "b"]}, "mode": "zip"},)");
   EXPECT_EQ(names(dag), (std::vector<std::string>{"epsilon=0.1,label=a", "epsilon=2,label=b"}));
 }
 
 TEST(sweep, excluded_combinations_are_left_out) {
-  const Dag dag = parse(R"("sweep": {"axes": {"epsilon": [0.1, 2], "label": ["a", "b"]},
+  const Dag dag = parse_with(R"("sweep": {"axes": {"epsilon": [0.1, 2], "label": ["a", "b"]},
     "exclude": [{"epsilon": 2, "label": "a"}, {"label": "b", "epsilon": 0.1}]},)");
   EXPECT_EQ(names(dag), (std::vector<std::string>{"epsilon=0.1,label=a", "epsilon=2,label=b"}));
 }
 
 TEST(sweep, what_variants_have_in_common_is_one_node_named_by_what_it_depends_on) {
-  const Dag dag = parse(R"("sweep": {"axes": {"epsilon": [0.1, 2], "label": ["a", "b"]}},)");
+  const Dag dag = parse_with(R"("sweep": {"axes": {"epsilon": [0.1, 2], "label": ["a", "b"]}},)");
   const std::vector<std::string> all = paths(dag);
   const std::set<std::string> expected = {
       "load",           "[epsilon=0.1]/grow", "[epsilon=2]/grow", "[epsilon=0.1]/match", "[epsilon=2]/match",
@@ -110,10 +100,10 @@ TEST(sweep, what_variants_have_in_common_is_one_node_named_by_what_it_depends_on
 }
 
 TEST(sweep, every_variant_is_the_graph_with_its_values_set) {
-  const Dag dag = parse(R"("sweep": {"axes": {"epsilon": [0.1, 2], "grow.steps": [1, 2, 10]}},)");
+  const Dag dag = parse_with(R"("sweep": {"axes": {"epsilon": [0.1, 2], "grow.steps": [1, 2, 10]}},)");
   ASSERT_EQ(dag.variants.size(), 6u);
   for (const Variant& variant : dag.variants) {
-    const Dag alone = parse(
+    const Dag alone = parse_with(
         "", {},
         {{"epsilon", variant.values[0].second.dump()}, {"grow.steps", variant.values[1].second.dump()}});
     ASSERT_EQ(alone.nodes.size(), variant.nodes.size());
@@ -176,9 +166,9 @@ TEST(sweep, subgraphs_and_loops_are_shared_like_nodes) {
 
 TEST(sweep, names_are_fit_for_folders_whatever_the_values) {
   const std::string longest(500, 'x');
-  const Dag dag = parse(R"("sweep": {"axes": {"label":
+  const Dag dag = parse_with(R"("sweep": {"axes": {"label":
     ["a/b", "a b", "../..", "", "[x]=,", "caf\u00e9", ".", "\u001b[2J", ")" +
-                        longest + R"(", ")" + longest + R"(y"]}},)");
+                             longest + R"(", ")" + longest + R"(y"]}},)");
   std::set<std::string> seen;
   for (const Variant& variant : dag.variants) {
     EXPECT_TRUE(seen.insert(variant.name).second) << variant.name;
@@ -224,25 +214,25 @@ struct SweepFiles : testing::Test {
 };
 
 TEST_F(SweepFiles, map_runs_the_graph_for_every_file_sorted) {
-  const Dag dag = parse(R"("map": {"input": ["scans/*.ply", "scans/?.off", "scans/a.ply"]},)");
+  const Dag dag = parse_with(R"("map": {"input": ["scans/*.ply", "scans/?.off", "scans/a.ply"]},)");
   EXPECT_EQ(names(dag), (std::vector<std::string>{"input=a.ply", "input=b.ply", "input=c.off"}));
   EXPECT_EQ(dag.variants[1].values[0].second, "scans/b.ply");
   EXPECT_EQ(dag.nodes[dag.variants[2].nodes[0]].params.at("file"), "scans/c.off");
 }
 
 TEST_F(SweepFiles, inputs_replace_the_map_and_multiply_the_axes) {
-  const Dag dag = parse(R"("sweep": {"axes": {"epsilon": [1, 2], "label": ["a", "b"]}, "mode": "zip"},
+  const Dag dag = parse_with(R"("sweep": {"axes": {"epsilon": [1, 2], "label": ["a", "b"]}, "mode": "zip"},
                             "map": {"input": "scans/*.off"},)",
-                        {{}, {"scans/*.ply"}});
+                             {{}, {"scans/*.ply"}});
   EXPECT_EQ(names(dag),
             (std::vector<std::string>{"input=a.ply,epsilon=1,label=a", "input=a.ply,epsilon=2,label=b",
                                       "input=b.ply,epsilon=1,label=a", "input=b.ply,epsilon=2,label=b"}));
 }
 
 TEST_F(SweepFiles, inputs_need_no_map) {
-  EXPECT_EQ(names(parse("", {{}, {"scans/[ab].ply"}})),
+  EXPECT_EQ(names(parse_with("", {{}, {"scans/[ab].ply"}})),
             (std::vector<std::string>{"input=a.ply", "input=b.ply"}));
-  EXPECT_EQ(names(parse("", {{}, {"input=shape:torus?n=3", "scans/c.off"}})),
+  EXPECT_EQ(names(parse_with("", {{}, {"input=shape:torus?n=3", "scans/c.off"}})),
             (std::vector<std::string>{"input=c.off", "input=shape:torus_n_3"}))
       << "a name without * or [ need not be a file";
 }
@@ -250,18 +240,18 @@ TEST_F(SweepFiles, inputs_need_no_map) {
 TEST_F(SweepFiles, a_name_that_is_there_is_no_pattern) {
   for (const char* name : {"scan [1].ply", "scan 1.ply", "what?.ply"})
     test::write_file(folder.file(std::string("scans/") + name), "");
-  const Dag dag = parse("", {{}, {"scans/scan [1].ply", "scans/what?.ply"}});
+  const Dag dag = parse_with("", {{}, {"scans/scan [1].ply", "scans/what?.ply"}});
   ASSERT_EQ(dag.variants.size(), 2u);
   EXPECT_EQ(dag.variants[0].values[0].second, "scans/scan [1].ply");
   EXPECT_EQ(dag.variants[1].values[0].second, "scans/what?.ply");
-  EXPECT_EQ(parse("", {{}, {"scans/scan [12].ply"}}).variants[0].values[0].second, "scans/scan 1.ply")
+  EXPECT_EQ(parse_with("", {{}, {"scans/scan [12].ply"}}).variants[0].values[0].second, "scans/scan 1.ply")
       << "none is called so: a pattern";
 }
 
 TEST_F(SweepFiles, files_of_one_name_are_told_apart_by_their_folders) {
   fs::create_directories("other");
   test::write_file(folder.file("other/a.ply"), "");
-  EXPECT_EQ(names(parse("", {{}, {"*/a.ply"}})),
+  EXPECT_EQ(names(parse_with("", {{}, {"*/a.ply"}})),
             (std::vector<std::string>{"input=other_a.ply", "input=scans_a.ply"}));
 }
 
@@ -292,11 +282,11 @@ TEST_F(SweepFiles, wrong_inputs_are_explained) {
 TEST(sweep, axes_of_the_command_line_replace_and_add) {
   const std::string sections = R"("sweep": {"axes": {"epsilon": [0.1, 2], "label": ["a", "b"]},
                                     "exclude": [{"epsilon": 2, "label": "a"}]},)";
-  EXPECT_EQ(names(parse(sections, {{{"epsilon", "5"}}, {}})),
+  EXPECT_EQ(names(parse_with(sections, {{{"epsilon", "5"}}, {}})),
             (std::vector<std::string>{"epsilon=5,label=a", "epsilon=5,label=b"}));
-  EXPECT_EQ(names(parse("", {{{"grow/steps", "2,3"}}, {}})),
+  EXPECT_EQ(names(parse_with("", {{{"grow/steps", "2,3"}}, {}})),
             (std::vector<std::string>{"grow.steps=2", "grow.steps=3"}));
-  const Dag list = parse("", {{{"label", R"(["a,b", "c"])"}}, {}});
+  const Dag list = parse_with("", {{{"label", R"(["a,b", "c"])"}}, {}});
   EXPECT_EQ(list.variants[0].values[0].second, "a,b");
   EXPECT_EQ(names(list), (std::vector<std::string>{"label=a_b", "label=c"}));
 }
@@ -386,7 +376,7 @@ TEST(sweep, a_thousand_variants_are_merged_quickly) {
   std::string values = "0";
   for (int i = 1; i < 1000; ++i) values += "," + std::to_string(i) + "e-3";
   const std::clock_t start = std::clock();
-  const Dag dag = parse(R"("sweep": {"axes": {"epsilon": [)" + values + "]}},");
+  const Dag dag = parse_with(R"("sweep": {"axes": {"epsilon": [)" + values + "]}},");
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   EXPECT_EQ(dag.nodes.size(), 2u + 2u * 1000u);
   std::printf("1000 variants of a graph of four nodes: %.1f ms of CPU time\n", seconds * 1e3);

@@ -59,14 +59,14 @@ struct GivenTest : testing::Test {
   ArtifactPtr output;
 };
 
-const char* const sum = R"({
+const char* const sum_of_two = R"({
   "inputs": { "a": { "type": "Numbers" }, "b": { "type": "Numbers", "optional": true } },
   "nodes": { "sum": { "type": "Add", "inputs": { "a": "inputs.a", "b": "inputs.b" } } },
   "outputs": { "sum": "sum.sum", "a": "inputs.a" } })";
 
 TEST_F(GivenTest, are_read_by_nodes_and_may_be_outputs) {
   const ArtifactPtr two = numbers({2, 2});
-  const Dag dag = parse(sum, {{"a", two}, {"b", numbers({1, 3})}});
+  const Dag dag = parse(sum_of_two, {{"a", two}, {"b", numbers({1, 3})}});
   const RunResult result = run(dag, Store::open({}));
   ASSERT_EQ(result.status, ExitCode::ok);
   const auto* values = static_cast<const double*>(output->find("values")->data);
@@ -88,7 +88,7 @@ TEST_F(GivenTest, give_the_same_key_as_the_node_that_made_them) {
   ASSERT_EQ(first.status, ExitCode::ok);
   const ArtifactPtr two = cache->load(of(whole, first, "two").outputs.at(0));
   ASSERT_NE(two, nullptr);
-  const Dag alone = parse(sum, {{"a", two}});
+  const Dag alone = parse(sum_of_two, {{"a", two}});
   const RunResult second = run(alone, cache);
   EXPECT_EQ(of(alone, second, "sum").status, NodeStatus::hit);
   EXPECT_EQ(of(alone, second, "sum").manifest, of(whole, first, "sum").manifest);
@@ -97,12 +97,13 @@ TEST_F(GivenTest, give_the_same_key_as_the_node_that_made_them) {
 }
 
 TEST_F(GivenTest, must_fit_the_inputs_of_the_graph) {
-  EXPECT_EQ(problem(sum, {}), "input \"a\" (Numbers) is not connected");
-  EXPECT_EQ(problem(sum, {{"a", numbers({1})}, {"c", numbers({1})}}), "the graph has no input \"c\"");
+  EXPECT_EQ(problem(sum_of_two, {}), "input \"a\" (Numbers) is not connected");
+  EXPECT_EQ(problem(sum_of_two, {{"a", numbers({1})}, {"c", numbers({1})}}), "the graph has no input \"c\"");
   const ArtifactPtr other = Artifact::seal("Letters", 1, {}, "{}", nullptr);
-  EXPECT_EQ(problem(sum, {{"a", other}}), "input \"a\" takes a Numbers, but the artifact is a Letters");
+  EXPECT_EQ(problem(sum_of_two, {{"a", other}}),
+            "input \"a\" takes a Numbers, but the artifact is a Letters");
   const ArtifactPtr newer = Artifact::seal("Numbers", 2, {}, "{}", nullptr);
-  EXPECT_EQ(problem(sum, {{"a", newer}}),
+  EXPECT_EQ(problem(sum_of_two, {{"a", newer}}),
             "\"inputs.a\" is a Numbers version 2, but input \"a\" of node \"sum\" (Add) takes version 1");
 }
 

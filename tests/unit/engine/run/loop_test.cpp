@@ -13,7 +13,7 @@
 namespace ballflow {
 namespace {
 
-class Listener final : public EventSink {
+class LoopListener final : public EventSink {
  public:
   void on(const Event& event) override {
     if (event.kind == Event::Kind::node_message) messages.push_back(event.text);
@@ -82,7 +82,7 @@ struct LoopTest : testing::Test {
 
   Registry registry;
   test::TempFolder folder;
-  Listener events;
+  LoopListener events;
   double last = 0;
 };
 

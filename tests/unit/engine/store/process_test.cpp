@@ -14,6 +14,7 @@
 #include "ballflow/store.hpp"
 #include "child_process.hpp"
 #include "faulty_file_system.hpp"
+#include "gc_fixture.hpp"
 #include "probe.hpp"
 #include "test_data.hpp"
 
@@ -49,8 +50,6 @@ pid_t dead_process() {
   finish(child);
   return child;
 }
-
-Digest key_of(int i) { return sha256("key " + std::to_string(i)); }
 
 }  // namespace
 

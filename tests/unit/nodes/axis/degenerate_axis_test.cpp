@@ -16,7 +16,7 @@
 namespace ballflow::geometry {
 namespace {
 
-class Listener final : public Monitor {
+class DegenerateListener final : public Monitor {
  public:
   void warn(const std::string& text) override { warnings.push_back(text); }
   std::vector<std::string> warnings;
@@ -45,7 +45,7 @@ TEST(degenerate_axis, of_a_tetrahedron_is_there_however_flat_it_is) {
   for (int exponent = 0; exponent >= -323; --exponent) {
     const double z = std::strtod(("1e" + std::to_string(exponent)).c_str(), nullptr);
     SCOPED_TRACE(z);
-    Listener listener;
+    DegenerateListener listener;
     const SimplicialComplex complex = complex_of(nearly_flat(z), 1);
     ASSERT_EQ(complex.tetrahedra.size(), 1u);
     const MedialAxis axis = medial_axis(complex, {}, listener);
@@ -132,7 +132,7 @@ TEST(degenerate_axis, of_a_cube_by_exact_decisions_has_no_polygon_that_is_there_
 TEST(degenerate_axis, says_what_is_wrong_when_the_complex_is_not_that_of_its_balls) {
   SimplicialComplex complex = complex_of(nearly_flat(1), 1);
   complex.betti = {1, 1, 0};
-  Listener listener;
+  DegenerateListener listener;
   medial_axis(complex, {}, listener);
   ASSERT_EQ(listener.warnings.size(), 1u);
   EXPECT_NE(listener.warnings[0].find("not that of its balls"), std::string::npos);

@@ -10,7 +10,7 @@
 namespace ballflow::geometry {
 namespace {
 
-const PointSet sample{{{-1, 0, 2}, {1, 8, 3}}, {}};  // longest edge of the box: 8
+const PointSet two_points{{{-1, 0, 2}, {1, 8, 3}}, {}};  // longest edge of the box: 8
 
 Balls enlarge(const Balls& balls, const PointSet& points, const EnlargeOptions& options) {
   return geometry::enlarge(balls, points, {}, options).balls;
@@ -38,13 +38,13 @@ std::string message(const Balls& balls, const PointSet& points, const EnlargeOpt
 
 TEST(enlarge, additive_epsilon_is_percent_of_the_longest_edge_of_the_box) {
   const Balls balls = sample_balls();
-  const Balls grown = enlarge(balls, sample, {.mode = EnlargeMode::additive, .epsilon = 25});
+  const Balls grown = enlarge(balls, two_points, {.mode = EnlargeMode::additive, .epsilon = 25});
   EXPECT_EQ(grown.radii, (Array<double>{2, 3, 4.5}));
   expect_same_but_radii(grown, balls);
 }
 
 TEST(enlarge, default_is_three_thousandths_of_the_longest_edge) {
-  const Balls grown = enlarge(sample_balls(), sample, {});
+  const Balls grown = enlarge(sample_balls(), two_points, {});
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(grown.radii[i] - sample_balls().radii[i], 0.024, 1e-15);
 }
 
@@ -62,10 +62,10 @@ TEST(enlarge, multiplicative_keeps_balls_of_radius_zero) {
 }
 
 TEST(enlarge, by_nothing_returns_the_input) {
-  EXPECT_EQ(enlarge(sample_balls(), sample, {.epsilon = 0}).radii, sample_balls().radii);
-  EXPECT_EQ(enlarge(sample_balls(), sample, {.mode = EnlargeMode::absolute, .epsilon = 0}).radii,
+  EXPECT_EQ(enlarge(sample_balls(), two_points, {.epsilon = 0}).radii, sample_balls().radii);
+  EXPECT_EQ(enlarge(sample_balls(), two_points, {.mode = EnlargeMode::absolute, .epsilon = 0}).radii,
             sample_balls().radii);
-  EXPECT_EQ(enlarge(sample_balls(), sample, {.mode = EnlargeMode::multiplicative, .factor = 1}).radii,
+  EXPECT_EQ(enlarge(sample_balls(), two_points, {.mode = EnlargeMode::multiplicative, .factor = 1}).radii,
             sample_balls().radii);
 }
 
@@ -75,31 +75,31 @@ TEST(enlarge, never_shrinks_a_radius_by_rounding) {
   for (int i = 0; i < 1000; ++i) radii.push_back(std::sqrt(i) * std::ldexp(1.0, i % 60 - 30));
   const Balls balls{centers, radii, {}, {}};
   for (const EnlargeMode mode : {EnlargeMode::additive, EnlargeMode::absolute, EnlargeMode::multiplicative}) {
-    const Balls grown = enlarge(balls, sample, {.mode = mode, .epsilon = 1e-13, .factor = 1 + 0x1p-52});
+    const Balls grown = enlarge(balls, two_points, {.mode = mode, .epsilon = 1e-13, .factor = 1 + 0x1p-52});
     for (std::size_t i = 0; i < radii.size(); ++i) ASSERT_GE(grown.radii[i], radii[i]);
   }
 }
 
-TEST(enlarge, accepts_no_ball) { EXPECT_EQ(enlarge({}, sample, {}).size(), 0u); }
+TEST(enlarge, accepts_no_ball) { EXPECT_EQ(enlarge({}, two_points, {}).size(), 0u); }
 
 TEST(enlarge, names_what_is_wrong) {
   const Balls balls = sample_balls();
   EXPECT_NE(message(balls, PointSet{}, {}).find("needs the sample"), std::string::npos);
-  EXPECT_NE(message(balls, sample, {.epsilon = -1}).find("epsilon is -1"), std::string::npos);
-  EXPECT_NE(message(balls, sample, {.epsilon = std::nan("")}).find("epsilon is"), std::string::npos);
+  EXPECT_NE(message(balls, two_points, {.epsilon = -1}).find("epsilon is -1"), std::string::npos);
+  EXPECT_NE(message(balls, two_points, {.epsilon = std::nan("")}).find("epsilon is"), std::string::npos);
   EXPECT_NE(
-      message(balls, sample, {.mode = EnlargeMode::multiplicative, .factor = 0.5}).find("factor is 0.5"),
+      message(balls, two_points, {.mode = EnlargeMode::multiplicative, .factor = 0.5}).find("factor is 0.5"),
       std::string::npos);
   const double most = std::numeric_limits<double>::max();
-  EXPECT_NE(message({{{0, 0, 0}, {1, 0, 0}}, {0, most}, {}, {}}, sample,
+  EXPECT_NE(message({{{0, 0, 0}, {1, 0, 0}}, {0, most}, {}, {}}, two_points,
                     {.mode = EnlargeMode::multiplicative, .factor = 2})
                 .find("ball 1"),
             std::string::npos);
-  EXPECT_NE(message({{{0, 0, 0}}, {-3}, {}, {}}, sample, {}).find("ball 0"), std::string::npos);
+  EXPECT_NE(message({{{0, 0, 0}}, {-3}, {}, {}}, two_points, {}).find("ball 0"), std::string::npos);
 }
 
 TEST(enlarge, modes_with_bounds_say_what_input_is_missing) {
-  EXPECT_NE(message(sample_balls(), sample, {.mode = EnlargeMode::pole_bound}).find("needs the poles"),
+  EXPECT_NE(message(sample_balls(), two_points, {.mode = EnlargeMode::pole_bound}).find("needs the poles"),
             std::string::npos);
   EXPECT_NE(message(sample_balls(), {}, {.mode = EnlargeMode::power_diagram})
                 .find("mode power_diagram needs the sample"),
@@ -107,7 +107,7 @@ TEST(enlarge, modes_with_bounds_say_what_input_is_missing) {
 }
 
 TEST(enlarge, without_bounds_says_that_every_wish_was_granted) {
-  const Growth growth = geometry::enlarge(sample_balls(), sample, {}, {}).growth;
+  const Growth growth = geometry::enlarge(sample_balls(), two_points, {}, {}).growth;
   EXPECT_EQ(broken_invariant(growth), "");
   EXPECT_EQ(growth.radii, sample_balls().radii);
   EXPECT_EQ(growth.stops, (Array<std::uint8_t>{0, 0, 0}));
@@ -119,7 +119,7 @@ TEST(enlarge, by_the_power_diagram_reports_the_topology_it_kept) {
   EnlargeOptions options;
   options.mode = EnlargeMode::power_diagram;
   options.epsilon = 50;  // of 8
-  const Enlarged grown = geometry::enlarge(apart, sample, {}, options);
+  const Enlarged grown = geometry::enlarge(apart, two_points, {}, options);
   expect_same_but_radii(grown.balls, apart);
   EXPECT_NEAR(grown.balls.radii[0], 2, 1e-9);
   EXPECT_LT(grown.balls.radii[0], 2);

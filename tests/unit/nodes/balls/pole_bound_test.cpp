@@ -13,7 +13,7 @@
 namespace ballflow::geometry {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double no_bound = std::numeric_limits<double>::infinity();
 
 struct Case {
   Balls balls;
@@ -43,7 +43,7 @@ Case random_case(unsigned seed, double scale = 1, bool mirrored = false, bool re
   return {{centers, radii, {}, {}}, {points, distances}};
 }
 
-std::vector<double> bounds(const Case& c, const PoleBoundOptions& options = {}, double enough = infinity) {
+std::vector<double> bounds(const Case& c, const PoleBoundOptions& options = {}, double enough = no_bound) {
   return pole_bounds(c.balls, c.sizes, std::vector<double>(c.balls.size(), enough), options);
 }
 
@@ -55,7 +55,7 @@ TEST(pole_bound, is_the_smallest_sum_over_all_samples) {
       const double factor = 0.817 - lost * r / (1 - r);
       const auto found = bounds(c, {r, constant});
       for (std::size_t i = 0; i < c.balls.size(); ++i) {
-        double least = infinity;
+        double least = no_bound;
         for (std::size_t s = 0; s < c.sizes.points.size(); ++s) {
           least = std::min(
               least, distance(c.balls.centers[i], c.sizes.points[s]) + factor * c.sizes.pole_distances[s]);
@@ -98,7 +98,7 @@ TEST(pole_bound, is_infinite_where_less_is_enough) {
   const auto all = bounds(c), some = bounds(c, {}, 0.1);
   int known = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    EXPECT_EQ(some[i], all[i] < 0.1 ? all[i] : infinity);
+    EXPECT_EQ(some[i], all[i] < 0.1 ? all[i] : no_bound);
     known += all[i] < 0.1 ? 1 : 0;
   }
   EXPECT_GT(known, 10);
@@ -112,7 +112,7 @@ TEST(pole_bound, of_permuted_mirrored_and_scaled_samples_is_the_same_or_scaled) 
 }
 
 TEST(pole_bound, refuses_a_density_for_which_nothing_is_proved) {
-  for (const double r : {0.0, -1.0, 0.0801, infinity, std::nan("")}) {
+  for (const double r : {0.0, -1.0, 0.0801, no_bound, std::nan("")}) {
     EXPECT_THROW(bounds(random_case(5), {r}), InputError) << r;
   }
 }
@@ -136,7 +136,7 @@ TEST(pole_bound, keeps_the_balls_of_enlarge_and_says_which_were_stopped) {
   Enlarged grown = enlarge(balls, sample, poles, options);
   EXPECT_EQ(grown.balls.radii[0], 1 + 25. / 100 * edge);
   EXPECT_EQ(grown.growth.stops[0], static_cast<std::uint8_t>(GrowthStop::wish));
-  EXPECT_EQ(grown.growth.limits[0], infinity);
+  EXPECT_EQ(grown.growth.limits[0], no_bound);
   options.epsilon = 500;
   grown = enlarge(balls, sample, poles, options);
   EXPECT_NEAR(grown.balls.radii[0], 1 + (0.817 - 2.5604 * 0.08 / 0.92), 1e-6);
@@ -157,12 +157,12 @@ TEST(pole_bound, of_bad_sets_of_balls_shrinks_nothing) {
                                    {{c.sizes.points[0], c.sizes.points[1]}, {0, 0}, {}, {}},  // at samples
                                    {std::vector<Vec3>(40, Vec3{0.1, 0.2, 0.3}), wide, {}, {}}};
   for (const Balls& balls : sets) {
-    const auto found = pole_bounds(balls, c.sizes, std::vector<double>(balls.size(), infinity), {});
+    const auto found = pole_bounds(balls, c.sizes, std::vector<double>(balls.size(), no_bound), {});
     ASSERT_EQ(found.size(), balls.size());
-    for (const double bound : found) EXPECT_TRUE(bound > 0 && bound < infinity) << bound;
+    for (const double bound : found) EXPECT_TRUE(bound > 0 && bound < no_bound) << bound;
   }
   // Without samples nothing bounds anything.
-  EXPECT_EQ(pole_bounds(sets[1], {}, std::vector<double>{5}, {})[0], infinity);
+  EXPECT_EQ(pole_bounds(sets[1], {}, std::vector<double>{5}, {})[0], no_bound);
 }
 
 TEST(pole_bound, below_the_radius_leaves_the_ball_as_it_is) {

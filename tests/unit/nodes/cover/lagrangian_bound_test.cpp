@@ -16,7 +16,7 @@ namespace {
 using test::Sets;
 using test::state_of;
 
-constexpr auto certified = static_cast<std::uint8_t>(BoundHow::certified);
+constexpr auto how_certified = static_cast<std::uint8_t>(BoundHow::certified);
 
 TEST(lagrangian_bound, never_exceeds_the_optimum_and_its_certificate_holds_on_the_original_matrix) {
   std::mt19937 random(51);
@@ -32,7 +32,7 @@ TEST(lagrangian_bound, never_exceeds_the_optimum_and_its_certificate_holds_on_th
       ASSERT_EQ(test::certificate_error(original, bounded), "");
       ASSERT_LE(bounded.lower_bound, best);
       ASSERT_EQ(bounded.lower_bound, bounded.certified_bound());
-      ASSERT_EQ(bounded.lower_bound_how, certified);
+      ASSERT_EQ(bounded.lower_bound_how, how_certified);
       closed += bounded.lower_bound == best ? 1 : 0;
     }
   }

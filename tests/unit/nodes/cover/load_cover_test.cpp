@@ -19,7 +19,7 @@ using test::row_sets;
 using test::Sets;
 using test::state_of;
 
-struct Warnings final : Monitor {
+struct WarningText final : Monitor {
   std::string text;
   void warn(const std::string& warning) override { text += warning + "\n"; }
 };
@@ -76,7 +76,7 @@ TEST(load_cover, reads_steiner_triples_as_elements) {
 }
 
 TEST(load_cover, ignores_costs_with_a_warning_and_is_silent_without) {
-  Warnings some, none;
+  WarningText some, none;
   EXPECT_EQ(row_sets(parse_cover("1 2 7 3 2 1 2", CoverFormat::scp, 0, nullptr, some).cover),
             (Sets{{0}, {0}}));
   EXPECT_TRUE(names(some.text, {"costs, from 1 to 7"}));
@@ -85,7 +85,7 @@ TEST(load_cover, ignores_costs_with_a_warning_and_is_silent_without) {
 }
 
 TEST(load_cover, lists_an_element_of_no_set_as_uncovered) {
-  Warnings warnings;
+  WarningText warnings;
   const CoverState cover =
       parse_cover("3 2\n1 1\n1 2\n0\n2 1 2\n", CoverFormat::scp, 0, nullptr, warnings).cover;
   EXPECT_EQ(row_sets(cover), (Sets{{2}, {0, 2}}));

@@ -25,7 +25,7 @@ namespace {
 using test::Sets;
 using test::state_of;
 
-CoverState certified(const CoverState& state, const LocalSearchOptions& options = {}) {
+CoverState with_bound(const CoverState& state, const LocalSearchOptions& options = {}) {
   return local_search(lagrangian_bound(ip_solve(reduce(state), *make_lp_solve())), options);
 }
 
@@ -61,7 +61,7 @@ TEST(local_search, strategy_ends_with_a_cover_between_bound_and_greedy) {
   std::mt19937 random(73);
   for (int round = 0; round < 40; ++round) {
     const CoverState state = state_of(test::random_sets(random, 150, 200, 0.03), 200);
-    const CoverState covered = certified(state);
+    const CoverState covered = with_bound(state);
     ASSERT_EQ(broken_invariant(covered), "");
     ASSERT_TRUE(test::covers(state, covered));
     ASSERT_LE(*covered.upper_bound(), *greedy(state).upper_bound());
@@ -140,7 +140,7 @@ TEST(local_search, accepts_an_empty_matrix_and_one_ball_for_everything) {
 TEST(local_search, a_dense_block_of_ones_needs_one_ball) {
   std::vector<std::int32_t> all(1500);
   std::iota(all.begin(), all.end(), 0);
-  EXPECT_EQ(certified(state_of(Sets(1500, all), 1500)).chosen.size(), 1u);
+  EXPECT_EQ(with_bound(state_of(Sets(1500, all), 1500)).chosen.size(), 1u);
   EXPECT_EQ(local_search(lagrangian_bound(state_of(Sets(1500, all), 1500))).gap(), 0.0);
 }
 
@@ -265,7 +265,7 @@ TEST_P(BestKnown, is_reached_by_the_certified_strategy) {
   LocalSearchOptions options;
   if (more_steps != nullptr) options.min_steps = std::stoll(more_steps);
   const CoverState state = load_cover({.file = file}).cover;
-  const CoverState covered = certified(state, options);
+  const CoverState covered = with_bound(state, options);
   EXPECT_LE(*covered.upper_bound(),
             more_steps != nullptr ? GetParam().balls_with_more_steps : GetParam().balls);
   EXPECT_LE(covered.lower_bound, GetParam().balls_with_more_steps);

@@ -22,7 +22,7 @@ TEST(share_bound, sums_one_over_the_longest_row_of_each_sample) {
 
 TEST(share_bound, is_the_formula_of_theorem_3_8_or_better) {
   std::mt19937 random(61);
-  int certified = 0;
+  int tight = 0;
   for (int round = 0; round < 2000; ++round) {
     const std::size_t rows = 3 + random() % 10, columns = 3 + random() % 16;
     const CoverState original =
@@ -43,9 +43,9 @@ TEST(share_bound, is_the_formula_of_theorem_3_8_or_better) {
     ASSERT_LE(bounded.lower_bound, test::optimum(original));
     ASSERT_EQ(test::certificate_error(original, bounded), "");
     ASSERT_EQ(broken_invariant(bounded), "");
-    certified += bounded.certified_bound() == bounded.lower_bound ? 1 : 0;
+    tight += bounded.certified_bound() == bounded.lower_bound ? 1 : 0;
   }
-  EXPECT_GT(certified, 1800);  // prices are rounded down, which rarely costs a ball
+  EXPECT_GT(tight, 1800);  // prices are rounded down, which rarely costs a ball
 }
 
 TEST(share_bound, rounds_up_component_by_component) {

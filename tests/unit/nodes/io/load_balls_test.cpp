@@ -14,7 +14,7 @@ struct Warnings final : Monitor {
   void warn(const std::string& warning) override { text += warning + "\n"; }
 };
 
-std::string refusal(std::string_view content) {
+std::string refusal_of(std::string_view content) {
   try {
     parse_balls(content);
   } catch (const InputError& error) {
@@ -94,12 +94,12 @@ const std::string header_of_ply =
     "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
 
 TEST(load_balls, refuses_ply_without_radii_and_with_bad_ones) {
-  EXPECT_TRUE(names(refusal(header_of_ply + "property uchar r\nend_header\n0 0 0 255\n"),
+  EXPECT_TRUE(names(refusal_of(header_of_ply + "property uchar r\nend_header\n0 0 0 255\n"),
                     {"no property \"radius\"", "Sample"}));
-  EXPECT_TRUE(names(refusal(header_of_ply + "property float radius\nend_header\n0 0 0 -2\n"),
+  EXPECT_TRUE(names(refusal_of(header_of_ply + "property float radius\nend_header\n0 0 0 -2\n"),
                     {"vertex 0", "radius is -2"}));
-  EXPECT_TRUE(
-      names(refusal(header_of_ply + "property float radius\nend_header\n0 0 0 nan\n"), {"vertex 0", "nan"}));
+  EXPECT_TRUE(names(refusal_of(header_of_ply + "property float radius\nend_header\n0 0 0 nan\n"),
+                    {"vertex 0", "nan"}));
 }
 
 /// A tetrahedron's surface less one side, an edge that hangs on it, and a lone vertex.
@@ -160,50 +160,51 @@ TEST(load_balls, finds_columns_by_their_names) {
 
 TEST(load_balls, names_element_and_line_of_what_is_wrong) {
   // rows
-  EXPECT_TRUE(names(refusal("0. 0 0 1\n0 0 0 -2\n"), {"ball 1", "\"-2\"", "line 2"}));
-  EXPECT_TRUE(names(refusal("0. 0 0 1\n0 0 0\n"), {"ball 1", "r is missing", "line 2"}));
-  EXPECT_TRUE(names(refusal("0. 0 0 1 5\n"), {"ball 0", "\"5\" follows", "line 1"}));
-  EXPECT_TRUE(names(refusal("0. nan 0 1\n"), {"ball 0", "y is nan", "line 1"}));
-  EXPECT_TRUE(names(refusal("0. 0 0 inf\n"), {"ball 0", "r is inf", "line 1"}));
-  EXPECT_TRUE(names(refusal("0. 0 0 1e999\n"), {"ball 0", "not a number", "line 1"}));
+  EXPECT_TRUE(names(refusal_of("0. 0 0 1\n0 0 0 -2\n"), {"ball 1", "\"-2\"", "line 2"}));
+  EXPECT_TRUE(names(refusal_of("0. 0 0 1\n0 0 0\n"), {"ball 1", "r is missing", "line 2"}));
+  EXPECT_TRUE(names(refusal_of("0. 0 0 1 5\n"), {"ball 0", "\"5\" follows", "line 1"}));
+  EXPECT_TRUE(names(refusal_of("0. nan 0 1\n"), {"ball 0", "y is nan", "line 1"}));
+  EXPECT_TRUE(names(refusal_of("0. 0 0 inf\n"), {"ball 0", "r is inf", "line 1"}));
+  EXPECT_TRUE(names(refusal_of("0. 0 0 1e999\n"), {"ball 0", "not a number", "line 1"}));
   EXPECT_TRUE(
-      names(refusal("x,y,z,nx,ny,nz\n0,0,0,1,0,0\n"), {"nx", "none is called r or radius", "line 1"}));
-  EXPECT_TRUE(names(refusal("x,y,z,r\n"), {"no ball"}));
-  EXPECT_TRUE(names(refusal(""), {"no ball"}));
-  EXPECT_TRUE(names(refusal("# none\n"), {"no ball"}));
-  EXPECT_TRUE(names(refusal("//Maya ASCII 2018 scene\n"), {"\"//Maya\"", "line 1", "readable are"}));
-  EXPECT_TRUE(names(refusal("OFF\n3 1 0\n"), {"\"OFF\"", "readable are"}));
-  EXPECT_TRUE(names(refusal("0.5 1 2\n"), {"r is missing", "line 1"}));
-  EXPECT_TRUE(names(refusal("7 9\n1 2 3 4\n"), {"\"7 9\"", "line 1", "1 lines follow", "9 balls"}));
+      names(refusal_of("x,y,z,nx,ny,nz\n0,0,0,1,0,0\n"), {"nx", "none is called r or radius", "line 1"}));
+  EXPECT_TRUE(names(refusal_of("x,y,z,r\n"), {"no ball"}));
+  EXPECT_TRUE(names(refusal_of(""), {"no ball"}));
+  EXPECT_TRUE(names(refusal_of("# none\n"), {"no ball"}));
+  EXPECT_TRUE(names(refusal_of("//Maya ASCII 2018 scene\n"), {"\"//Maya\"", "line 1", "readable are"}));
+  EXPECT_TRUE(names(refusal_of("OFF\n3 1 0\n"), {"\"OFF\"", "readable are"}));
+  EXPECT_TRUE(names(refusal_of("0.5 1 2\n"), {"r is missing", "line 1"}));
+  EXPECT_TRUE(names(refusal_of("7 9\n1 2 3 4\n"), {"\"7 9\"", "line 1", "1 lines follow", "9 balls"}));
   // sph
-  EXPECT_TRUE(names(refusal("2\n0 0 0 1\n"), {"promises 2 balls", "ends after at most 1"}));
-  EXPECT_TRUE(names(refusal("2\n0.125 0.25 0.5 1\n"), {"ends after 1 of 2 balls", "line 3"}));
-  EXPECT_TRUE(names(refusal("1\n0 0 0 1\n0 0 0 1\n"), {"\"0\" follows", "1 balls", "line 3"}));
-  EXPECT_TRUE(names(refusal("1\n0 0 0 1 0 2\n"), {"ball 0", "\"2\"", "0 or 1", "line 2"}));
-  EXPECT_TRUE(names(refusal("1\n0 0 0 1 0 0 0 0\n"), {"ball 0", "one number too many", "line 2"}));
-  EXPECT_TRUE(names(refusal("9000000000000000000\n0 0 0 1\n"), {"promises 9000000000000000000 balls"}));
-  EXPECT_TRUE(names(refusal("-1\n0 0 0 1\n"), {"promises -1 balls"}));
-  EXPECT_TRUE(names(refusal("0\n"), {"no ball"}));
-  EXPECT_TRUE(names(refusal("4 1\n0 0 0 1 0 1\n"), {"no ball"})) << "the only one is deleted";
+  EXPECT_TRUE(names(refusal_of("2\n0 0 0 1\n"), {"promises 2 balls", "ends after at most 1"}));
+  EXPECT_TRUE(names(refusal_of("2\n0.125 0.25 0.5 1\n"), {"ends after 1 of 2 balls", "line 3"}));
+  EXPECT_TRUE(names(refusal_of("1\n0 0 0 1\n0 0 0 1\n"), {"\"0\" follows", "1 balls", "line 3"}));
+  EXPECT_TRUE(names(refusal_of("1\n0 0 0 1 0 2\n"), {"ball 0", "\"2\"", "0 or 1", "line 2"}));
+  EXPECT_TRUE(names(refusal_of("1\n0 0 0 1 0 0 0 0\n"), {"ball 0", "one number too many", "line 2"}));
+  EXPECT_TRUE(names(refusal_of("9000000000000000000\n0 0 0 1\n"), {"promises 9000000000000000000 balls"}));
+  EXPECT_TRUE(names(refusal_of("-1\n0 0 0 1\n"), {"promises -1 balls"}));
+  EXPECT_TRUE(names(refusal_of("0\n"), {"no ball"}));
+  EXPECT_TRUE(names(refusal_of("4 1\n0 0 0 1 0 1\n"), {"no ball"})) << "the only one is deleted";
   // ma
-  EXPECT_TRUE(names(refusal("1 0 0\nv 0 0 0 -1\n"), {"vertex 0", "\"-1\"", "line 2"}));
-  EXPECT_TRUE(names(refusal("1 0 0\nv 0 0 0 1 2.5\n"), {"vertex 0", "\"2.5\"", "line 2"}));
-  EXPECT_TRUE(names(refusal("2 0 0\nv 0 0 0 1\nv 0 0 0   \n"), {"vertex 1", "r is missing", "line 3"}));
-  EXPECT_TRUE(names(refusal("2 0 0\nv 0 0 0 1\n     \n    "), {"vertex 1", "the file ends", "promises 2"}));
+  EXPECT_TRUE(names(refusal_of("1 0 0\nv 0 0 0 -1\n"), {"vertex 0", "\"-1\"", "line 2"}));
+  EXPECT_TRUE(names(refusal_of("1 0 0\nv 0 0 0 1 2.5\n"), {"vertex 0", "\"2.5\"", "line 2"}));
+  EXPECT_TRUE(names(refusal_of("2 0 0\nv 0 0 0 1\nv 0 0 0   \n"), {"vertex 1", "r is missing", "line 3"}));
   EXPECT_TRUE(
-      names(refusal("2 1 0\nv 0 0 0 1\nv 1 0 0 1\ne 0 2\n"), {"edge 0", "index 2", "2 vertices", "line 4"}));
-  EXPECT_TRUE(names(refusal("2 1 0\nv 0 0 0 1\nv 1 0 0 1\ne 0 -1\n"), {"edge 0", "index -1", "line 4"}));
+      names(refusal_of("2 0 0\nv 0 0 0 1\n     \n    "), {"vertex 1", "the file ends", "promises 2"}));
+  EXPECT_TRUE(names(refusal_of("2 1 0\nv 0 0 0 1\nv 1 0 0 1\ne 0 2\n"),
+                    {"edge 0", "index 2", "2 vertices", "line 4"}));
+  EXPECT_TRUE(names(refusal_of("2 1 0\nv 0 0 0 1\nv 1 0 0 1\ne 0 -1\n"), {"edge 0", "index -1", "line 4"}));
   EXPECT_TRUE(
-      names(refusal("2 1 0\nv 0 0 0 1\nv 1 0 0 1\ne 0    \n"), {"edge 0", "index is missing", "line 4"}));
-  EXPECT_TRUE(names(refusal("2 1 0\nv 0 0 0 1\nv 1 0 0 1\nf 0 1 1\n"),
+      names(refusal_of("2 1 0\nv 0 0 0 1\nv 1 0 0 1\ne 0    \n"), {"edge 0", "index is missing", "line 4"}));
+  EXPECT_TRUE(names(refusal_of("2 1 0\nv 0 0 0 1\nv 1 0 0 1\nf 0 1 1\n"),
                     {"edge 0", "\"f\"", "\"e\" should be", "line 4"}));
-  EXPECT_TRUE(names(refusal("3 0 1\nv 0 0 0 1\nv 1 0 0 1\nv 2 0 0 1\nf 0 1 2 7\n"),
+  EXPECT_TRUE(names(refusal_of("3 0 1\nv 0 0 0 1\nv 1 0 0 1\nv 2 0 0 1\nf 0 1 2 7\n"),
                     {"face 0", "\"7\"", "0 or 1", "line 5"}));
-  EXPECT_TRUE(names(refusal("2 1 0\nv 0 0 0 1\nv 1 0 0 1 0 1\ne 0 1\n"),
+  EXPECT_TRUE(names(refusal_of("2 1 0\nv 0 0 0 1\nv 1 0 0 1 0 1\ne 0 1\n"),
                     {"edge 0", "vertex 1 is marked as deleted", "line 4"}));
-  EXPECT_TRUE(names(refusal("1 0 0\nv 0 0 0 1\nv 1 0 0 1\n"), {"\"v\" follows", "line 3"}));
-  EXPECT_TRUE(names(refusal("1 0 99999999\nv 0 0 0 1\n"), {"promises 99999999 triangles"}));
-  EXPECT_TRUE(names(refusal("0 0 0\n"), {"no ball"}));
+  EXPECT_TRUE(names(refusal_of("1 0 0\nv 0 0 0 1\nv 1 0 0 1\n"), {"\"v\" follows", "line 3"}));
+  EXPECT_TRUE(names(refusal_of("1 0 99999999\nv 0 0 0 1\n"), {"promises 99999999 triangles"}));
+  EXPECT_TRUE(names(refusal_of("0 0 0\n"), {"no ball"}));
 }
 
 TEST(load_balls, reads_decimal_commas_as_decimals_or_not_at_all) {
@@ -212,7 +213,7 @@ TEST(load_balls, reads_decimal_commas_as_decimals_or_not_at_all) {
   EXPECT_EQ(blanks.balls.radii, (Array<double>{0.5, 1}));
   EXPECT_EQ(parse_balls("x;y;z;r\n1,5;0;0;0,5\n").balls.centers, (Array<Vec3>{{1.5, 0, 0}}));
   EXPECT_EQ(load_balls({"balls:0,5 0 0 1"}).balls.centers, (Array<Vec3>{{0.5, 0, 0}}));
-  EXPECT_TRUE(names(refusal("1,5000,0,0000,0,0000,0,5000\n"), {"\"0\" follows the radius", "line 1"}));
+  EXPECT_TRUE(names(refusal_of("1,5000,0,0000,0,0000,0,5000\n"), {"\"0\" follows the radius", "line 1"}));
 }
 
 TEST(load_balls, reads_the_leaves_of_sphere_trees) {
@@ -222,8 +223,8 @@ TEST(load_balls, reads_the_leaves_of_sphere_trees) {
   const LoadedBalls loaded = parse_balls(tree);
   EXPECT_EQ(loaded.balls.radii, (Array<double>{1.5, 1, 1.25}));
   EXPECT_EQ(loaded.balls.centers, (Array<Vec3>{{2, 0, 0}, {-1.5, 0, 0}, {-0.5, 0, 0}}));
-  EXPECT_TRUE(names(refusal(tree.substr(0, tree.size() - 11)), {"\"3 2\"", "6 lines follow", "3 levels"}));
-  EXPECT_TRUE(names(refusal("3 2\n0 0 0 4 1\n" + std::string("-1 0 0 x 1\n") + tree.substr(29)),
+  EXPECT_TRUE(names(refusal_of(tree.substr(0, tree.size() - 11)), {"\"3 2\"", "6 lines follow", "3 levels"}));
+  EXPECT_TRUE(names(refusal_of("3 2\n0 0 0 4 1\n" + std::string("-1 0 0 x 1\n") + tree.substr(29)),
                     {"ball 1", "r is \"x\"", "line 3"}));
   // 4 begins a list of MATTopo, too: the number of lines tells them apart.
   EXPECT_EQ(parse_balls("4 1\n0 0 0 3\n").balls.size(), 1u);
@@ -245,7 +246,7 @@ TEST(load_balls, tells_files_of_balls_from_models) {
   EXPECT_TRUE(holds_balls("a.csv", "x,y,z,r\n0,0,0,1\n"));
   EXPECT_FALSE(holds_balls("a.csv", "x,y,z,nx\n0,0,0,1\n"));
   EXPECT_FALSE(holds_balls("a.csv", "x,y,z,r,g,b\n0,0,0,255,0,0\n")) << "a colour";
-  EXPECT_TRUE(names(refusal("x,y,z,r,g,b\n0,0,0,255,0,0\n"), {"none is called r or radius", "line 1"}));
+  EXPECT_TRUE(names(refusal_of("x,y,z,r,g,b\n0,0,0,255,0,0\n"), {"none is called r or radius", "line 1"}));
   EXPECT_TRUE(holds_balls("a.csv", "x,y,z,radius,r,g,b\n0,0,0,1,255,0,0\n"));
   EXPECT_FALSE(holds_balls("a.xyz", "0 0 0 1\n"));
   EXPECT_TRUE(holds_balls("A.MA.gz", "1 0 0\nv 0 0 0 1\n"));
@@ -253,8 +254,8 @@ TEST(load_balls, tells_files_of_balls_from_models) {
 }
 
 TEST(load_balls, names_formats_that_are_not_read) {
-  EXPECT_TRUE(names(refusal("{\"asset\": {\"version\": \"2.0\"}}"), {"a glTF model", "readable are ma"}));
-  EXPECT_TRUE(names(refusal("<?xml version=\"1.0\"?>\n<robot name=\"arm\">"), {"URDF or SRDF"}));
+  EXPECT_TRUE(names(refusal_of("{\"asset\": {\"version\": \"2.0\"}}"), {"a glTF model", "readable are ma"}));
+  EXPECT_TRUE(names(refusal_of("<?xml version=\"1.0\"?>\n<robot name=\"arm\">"), {"URDF or SRDF"}));
 }
 
 TEST(load_balls, names_the_ball_of_a_list_in_the_parameter) {

@@ -31,7 +31,7 @@ using geometry::VoronoiPolesOptions;
 using test::PointSet;
 using test::Vec3;
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 PoleSet poles_of(const PointSet& points) {
   PoleSet poles = voronoi_poles(points, {});
@@ -41,7 +41,7 @@ PoleSet poles_of(const PointSet& points) {
   return poles;
 }
 
-std::vector<std::int32_t> samples_of(const PoleSet& poles, std::size_t pole) {
+std::vector<std::int32_t> defining_samples_of(const PoleSet& poles, std::size_t pole) {
   return {poles.defining_samples.begin() + poles.defining_offsets[pole],
           poles.defining_samples.begin() + poles.defining_offsets[pole + 1]};
 }
@@ -101,7 +101,7 @@ TEST(voronoi_poles, of_a_cube_meet_in_its_center) {
   ASSERT_EQ(inside.size(), 1U);
   EXPECT_EQ(poles.centers[inside[0]], (Vec3{0, 0, 0}));
   EXPECT_EQ(poles.radii[inside[0]], std::sqrt(3.0));
-  EXPECT_EQ(samples_of(poles, inside[0]), (std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_EQ(defining_samples_of(poles, inside[0]), (std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 7}));
   for (const auto& pair : poles.sample_poles) {
     EXPECT_EQ(poles.unbounded[at(pair[0])], 1);
     EXPECT_EQ(pair[1], static_cast<std::int32_t>(inside[0]));
@@ -123,7 +123,7 @@ TEST(voronoi_poles, of_all_integer_points_of_norm_9_are_one_vertex) {
   ASSERT_EQ(inside.size(), 1U);
   EXPECT_LT(length(poles.centers[inside[0]]), 1e-14);
   EXPECT_NEAR(poles.radii[inside[0]], 9, 1e-14);
-  EXPECT_EQ(samples_of(poles, inside[0]).size(), 102U);
+  EXPECT_EQ(defining_samples_of(poles, inside[0]).size(), 102U);
 }
 
 TEST(voronoi_poles, of_a_lattice_are_the_centers_of_its_cells) {
@@ -135,7 +135,7 @@ TEST(voronoi_poles, of_a_lattice_are_the_centers_of_its_cells) {
   for (const std::size_t i : inside) {
     const Vec3 c = poles.centers[i];
     for (const double x : {c.x, c.y, c.z}) EXPECT_EQ(x - std::floor(x), 0.5);
-    EXPECT_EQ(samples_of(poles, i).size(), 8U);
+    EXPECT_EQ(defining_samples_of(poles, i).size(), 8U);
     EXPECT_EQ(poles.radii[i], std::sqrt(0.75));
   }
 }
@@ -221,13 +221,13 @@ std::vector<Vec3> hull_normals(const PointSet& sample, std::int32_t s) {
   std::vector<Vec3> normals;
   for (std::size_t a = 0; a < p.size(); ++a) {
     for (std::size_t b = 0; b < p.size(); ++b) {
-      if (CGAL::collinear(p[at(s)], p[a], p[b])) continue;
+      if (CGAL::collinear(p[index(s)], p[a], p[b])) continue;
       bool above = false;
       for (std::size_t c = 0; c < p.size() && !above; ++c) {
-        above = CGAL::orientation(p[at(s)], p[a], p[b], p[c]) == CGAL::POSITIVE;
+        above = CGAL::orientation(p[index(s)], p[a], p[b], p[c]) == CGAL::POSITIVE;
       }
       if (above) continue;
-      const Vec3 from = sample.points[at(s)];
+      const Vec3 from = sample.points[index(s)];
       const Vec3 normal = cross(sample.points[a] - from, sample.points[b] - from);
       normals.push_back(1 / length(normal) * normal);
     }
@@ -247,16 +247,17 @@ void compare_with_brute_force(const PointSet& sample, int& compared) {
     return distance(v.center, middle) + v.radius < 9.9 * box.longest_edge();
   };
   for (const std::size_t i : bounded(poles)) {
-    const auto match = std::find_if(vertices.begin(), vertices.end(),
-                                    [&](const BruteVertex& v) { return v.samples == samples_of(poles, i); });
+    const auto match = std::find_if(vertices.begin(), vertices.end(), [&](const BruteVertex& v) {
+      return v.samples == defining_samples_of(poles, i);
+    });
     EXPECT_NE(match, vertices.end()) << "pole " << i << " is no Voronoi vertex of the sample";
     if (match == vertices.end()) continue;
     EXPECT_LT(distance(match->center, poles.centers[i]), 1e-9 * (1 + match->radius));
     EXPECT_NEAR(match->radius, poles.radii[i], 1e-9 * (1 + match->radius));
   }
   for (std::int32_t s = 0; s < static_cast<std::int32_t>(sample.points.size()); ++s) {
-    const Vec3 p = sample.points[at(s)];
-    const auto pair = poles.sample_poles[at(s)];
+    const Vec3 p = sample.points[index(s)];
+    const auto pair = poles.sample_poles[index(s)];
     std::vector<const BruteVertex*> cell;
     bool all_untouched = true;
     for (const BruteVertex& v : vertices) {
@@ -311,8 +312,8 @@ void compare_candidates_with_brute_force(const PointSet& sample, int& compared) 
   const std::vector<std::uint8_t> is_pole = geometry::is_pole(poles);
   std::set<std::vector<std::int32_t>> candidates, listed;
   for (const std::size_t i : bounded(poles)) {
-    listed.insert(samples_of(poles, i));
-    if (is_pole[i] == 0) candidates.insert(samples_of(poles, i));
+    listed.insert(defining_samples_of(poles, i));
+    if (is_pole[i] == 0) candidates.insert(defining_samples_of(poles, i));
   }
   const geometry::Box box = geometry::bounding_box(sample.points.span());
   const Vec3 middle = 0.5 * (box.lower + box.upper);
@@ -320,8 +321,8 @@ void compare_candidates_with_brute_force(const PointSet& sample, int& compared) 
     if (distance(v.center, middle) + v.radius > 9.9 * box.longest_edge()) continue;
     bool expected = false, doubtful = false;
     for (const std::int32_t s : v.samples) {
-      const Vec3 p = sample.points[at(s)];
-      const auto& own = poles.sample_poles[at(s)];
+      const Vec3 p = sample.points[index(s)];
+      const auto& own = poles.sample_poles[index(s)];
       const Vec3 first = poles.centers[at(own[0])] - p, second = poles.centers[at(own[1])] - p;
       const double angle = std::acos(dot(first, second) / (length(first) * length(second)));
       const double behind = dot(v.center - p, first) / (length(v.center - p) * length(first));
@@ -366,7 +367,7 @@ auto renamed(const PoleSet& poles, const std::vector<std::int32_t>& name) {
   std::vector<std::tuple<Vec3, double, std::vector<std::int32_t>, int>> entries;
   for (std::size_t i = 0; i < poles.size(); ++i) {
     std::vector<std::int32_t> samples;
-    for (const std::int32_t s : samples_of(poles, i)) samples.push_back(name[at(s)]);
+    for (const std::int32_t s : defining_samples_of(poles, i)) samples.push_back(name[index(s)]);
     std::sort(samples.begin(), samples.end());
     entries.emplace_back(poles.centers[i], poles.radii[i], samples, poles.unbounded[i]);
   }
@@ -388,7 +389,7 @@ void expect_independent_of_numbering(const PointSet& sample) {
   std::mt19937 random(7);
   std::shuffle(name.begin(), name.end(), random);
   std::vector<Vec3> permuted;
-  for (const std::int32_t s : name) permuted.push_back(sample.points[at(s)]);
+  for (const std::int32_t s : name) permuted.push_back(sample.points[index(s)]);
   EXPECT_TRUE(renamed(poles_of(sample), identity) == renamed(poles_of({permuted, {}}), name));
 }
 
@@ -450,8 +451,8 @@ TEST(voronoi_poles, of_nearly_flat_points_are_finite) {
   const PoleSet poles = poles_of({points, {}});  // the invariants say that centres and radii are finite
   for (std::size_t i = 0; i < poles.size(); ++i) {
     const double tolerance = 1e-9 * poles.radii[i];
-    for (const std::int32_t s : samples_of(poles, i)) {
-      EXPECT_NEAR(distance(poles.centers[i], points[at(s)]), poles.radii[i], tolerance);
+    for (const std::int32_t s : defining_samples_of(poles, i)) {
+      EXPECT_NEAR(distance(poles.centers[i], points[index(s)]), poles.radii[i], tolerance);
     }
   }
 }

@@ -12,7 +12,7 @@
 namespace ballflow::geometry {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double far = std::numeric_limits<double>::infinity();
 
 class Uniform {
  public:
@@ -30,7 +30,7 @@ TEST(surface_tree, the_nearest_point_of_a_sphere_is_about_one_radius_from_its_ce
   Uniform random(1);
   for (int i = 0; i < 500; ++i) {
     const Vec3 p = 2 * random.point();
-    const auto found = tree.nearest(p, infinity);
+    const auto found = tree.nearest(p, far);
     ASSERT_TRUE(found);
     EXPECT_NEAR(found->distance, std::abs(length(p) - 1), 0.01);
     EXPECT_NEAR(found->distance, distance(p, found->point), 1e-12);
@@ -52,9 +52,9 @@ TEST(surface_tree, no_point_of_any_triangle_is_nearer_than_the_nearest) {
   const SurfaceTree tree(mesh);
   for (int i = 0; i < 100; ++i) {
     const Vec3 p = random.point();
-    const auto found = tree.nearest(p, infinity);
+    const auto found = tree.nearest(p, far);
     ASSERT_TRUE(found);
-    double least = infinity;
+    double least = far;
     for (const auto& [a, b, c] : triangles) {
       const auto at = [&](std::int32_t v) { return vertices[static_cast<std::size_t>(v)]; };
       constexpr int steps = 40;
@@ -79,19 +79,19 @@ TEST(surface_tree, a_ray_meets_a_cube_where_the_formula_says_also_along_its_axes
     const Vec3 from = 0.9 * random.point();
     Vec3 direction = random.point();
     if (i % 3 == 0) direction = i % 2 == 0 ? Vec3{0, 0, 1} : Vec3{0, -1, 0};
-    double end = infinity;
+    double end = far;
     const auto side = [&](double at, double slope) {
       if (slope != 0) end = std::min(end, ((slope > 0 ? 1 : -1) - at) / slope);
     };
     side(from.x, direction.x);
     side(from.y, direction.y);
     side(from.z, direction.z);
-    const auto hit = tree.first_hit(from, direction, 0, infinity);
+    const auto hit = tree.first_hit(from, direction, 0, far);
     ASSERT_TRUE(hit);
     EXPECT_NEAR(hit->distance, end, 1e-12 * end);
     EXPECT_FALSE(tree.first_hit(from, direction, 0, end * (1 - 1e-9)));
-    EXPECT_FALSE(tree.first_hit(from, direction, end * (1 + 1e-9), infinity));
-    EXPECT_EQ(tree.hits(from - 10 * direction, direction, 0, infinity).size(), 2u);
+    EXPECT_FALSE(tree.first_hit(from, direction, end * (1 + 1e-9), far));
+    EXPECT_EQ(tree.hits(from - 10 * direction, direction, 0, far).size(), 2u);
   }
 }
 
@@ -105,8 +105,8 @@ TEST(surface_tree, normals_point_to_where_triangles_are_seen_counter_clockwise) 
 TEST(surface_tree, a_mesh_without_triangles_is_nowhere) {
   const TriangleMesh mesh;
   const SurfaceTree tree(mesh);
-  EXPECT_FALSE(tree.nearest({}, infinity));
-  EXPECT_FALSE(tree.first_hit({}, {1, 0, 0}, 0, infinity));
+  EXPECT_FALSE(tree.nearest({}, far));
+  EXPECT_FALSE(tree.first_hit({}, {1, 0, 0}, 0, far));
 }
 
 }  // namespace

@@ -149,7 +149,7 @@ TEST(topology_repair, tells_a_tunnel_lost_and_another_one_gained) {
   EXPECT_EQ(describe(repair.check.inclusion_before()), "1 tunnel is lost, 1 tunnel is extra");
 }
 
-double unit(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
+double random_unit(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
 struct Instance {
   Balls balls;
@@ -166,9 +166,9 @@ Instance random_instance(std::mt19937_64& random, std::size_t n, double size, bo
       centers.push_back({x, y, z});
       radii.push_back(0.25 * static_cast<double>(1 + random() % 4));
     } else {
-      const double x = unit(random), y = unit(random), z = unit(random);
+      const double x = random_unit(random), y = random_unit(random), z = random_unit(random);
       centers.push_back({x, y, z});
-      radii.push_back(size * (0.5 + 0.5 * unit(random)));
+      radii.push_back(size * (0.5 + 0.5 * random_unit(random)));
     }
   }
   Ids kept;
@@ -183,7 +183,7 @@ TEST(topology_repair, makes_an_isomorphism_that_nerves_confirm) {
   std::int64_t returned = 0, left_out = 0;
   for (int round = 0; round < 120; ++round) {
     const std::size_t n = 6 + random() % 10;
-    const Instance instance = random_instance(random, n, 0.2 + 0.3 * unit(random), round % 3 == 0);
+    const Instance instance = random_instance(random, n, 0.2 + 0.3 * random_unit(random), round % 3 == 0);
     const TopologyRepair repair = repaired(instance.balls, instance.kept);
     const Ids after = merged(instance.kept, repair.returned);
     const InclusionHomology truth = test::cech_inclusion(instance.balls, after);
@@ -235,7 +235,7 @@ TEST(topology_repair, by_listing_3_2_is_an_isomorphism_and_returns_no_fewer_ball
   std::mt19937_64 random(3);
   std::size_t literal = 0, localised = 0, missed = 0;
   for (int round = 0; round < 100; ++round) {
-    const Instance instance = random_instance(random, 24, 0.3 + 0.1 * unit(random), false);
+    const Instance instance = random_instance(random, 24, 0.3 + 0.1 * random_unit(random), false);
     literal += repaired(instance.balls, instance.kept, {.method = RepairMethod::literal}).returned.size();
     localised += repaired(instance.balls, instance.kept).returned.size();
     const Ids listed = listing_3_2(instance.balls, instance.kept, no_monitor());

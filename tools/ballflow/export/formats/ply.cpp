@@ -3,7 +3,7 @@
 namespace ballflow {
 namespace {
 
-void raw(OutputFile& out, geometry::Vec3 p) {
+void raw_vector(OutputFile& out, geometry::Vec3 p) {
   out.raw(p.x);
   out.raw(p.y);
   out.raw(p.z);
@@ -45,8 +45,8 @@ void write_ply(const PolyData& data, OutputFile& out) {
   out << "end_header\n";
 
   for (std::size_t i = 0; i < data.points.size(); ++i) {
-    raw(out, data.points[i]);
-    if (!data.normals.empty()) raw(out, data.normals[i]);
+    raw_vector(out, data.points[i]);
+    if (!data.normals.empty()) raw_vector(out, data.normals[i]);
     if (data.radii) out.raw((*data.radii)[i]);
     if (!data.point_codes.name.empty()) out.raw(data.point_codes.values[i]);
   }

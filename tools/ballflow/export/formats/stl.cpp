@@ -8,7 +8,7 @@ namespace {
 
 using geometry::Vec3;
 
-void raw(OutputFile& out, Vec3 p) {
+void raw_floats(OutputFile& out, Vec3 p) {
   for (const double value : {p.x, p.y, p.z}) out.raw(float32(value, "STL"));
 }
 
@@ -29,8 +29,8 @@ void write_stl(const PolyData& data, OutputFile& out) {
   out.raw(static_cast<std::uint32_t>(triangles.size()));
   for (const Triangle& t : triangles) {
     const auto corner = [&](std::size_t k) { return data.points[static_cast<std::size_t>(t[k])]; };
-    raw(out, normal(corner(0), corner(1), corner(2)));
-    for (std::size_t k = 0; k < 3; ++k) raw(out, corner(k));
+    raw_floats(out, normal(corner(0), corner(1), corner(2)));
+    for (std::size_t k = 0; k < 3; ++k) raw_floats(out, corner(k));
     out.raw(std::uint16_t{0});
   }
 }

@@ -7,7 +7,7 @@
 namespace ballflow::show {
 namespace {
 
-std::vector<Layer> layers(const Artifact& artifact) {
+std::vector<Layer> layers_of_balls(const Artifact& artifact) {
   const auto balls = typed<geometry::Balls>(artifact);
   Layer layer;
   layer.name = "balls";
@@ -21,6 +21,6 @@ std::vector<Layer> layers(const Artifact& artifact) {
 
 }  // namespace
 
-TypeLayers balls_layers() { return {"Balls", layers}; }
+TypeLayers balls_layers() { return {"Balls", layers_of_balls}; }
 
 }  // namespace ballflow::show

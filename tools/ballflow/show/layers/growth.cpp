@@ -7,7 +7,7 @@
 namespace ballflow::show {
 namespace {
 
-std::vector<Layer> layers(const Artifact& artifact) {
+std::vector<Layer> layers_of_growth(const Artifact& artifact) {
   const auto growth = typed<geometry::Growth>(artifact);
   Layer layer;
   layer.name = "grown balls";
@@ -27,6 +27,6 @@ std::vector<Layer> layers(const Artifact& artifact) {
 
 }  // namespace
 
-TypeLayers growth_layers() { return {"Growth", layers}; }
+TypeLayers growth_layers() { return {"Growth", layers_of_growth}; }
 
 }  // namespace ballflow::show

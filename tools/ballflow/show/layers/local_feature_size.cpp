@@ -6,7 +6,7 @@
 namespace ballflow::show {
 namespace {
 
-std::vector<Layer> layers(const Artifact& artifact) {
+std::vector<Layer> layers_of_local_feature_size(const Artifact& artifact) {
   const auto size = typed<geometry::LocalFeatureSize>(artifact);
   Layer layer;
   layer.name = "local feature size";
@@ -19,6 +19,6 @@ std::vector<Layer> layers(const Artifact& artifact) {
 
 }  // namespace
 
-TypeLayers local_feature_size_layers() { return {"LocalFeatureSize", layers}; }
+TypeLayers local_feature_size_layers() { return {"LocalFeatureSize", layers_of_local_feature_size}; }
 
 }  // namespace ballflow::show

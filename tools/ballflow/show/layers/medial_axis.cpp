@@ -54,7 +54,7 @@ std::vector<std::uint8_t> colours_of_sheets(const MedialAxis& axis) {
   return colours;
 }
 
-std::vector<Layer> layers(const Artifact& artifact) {
+std::vector<Layer> layers_of_medial_axis(const Artifact& artifact) {
   const auto axis = typed<MedialAxis>(artifact);
   std::vector<bool> used(axis.vertices.size(), false);
   const auto use = [&used](std::int32_t v) {
@@ -118,6 +118,6 @@ std::vector<Layer> layers(const Artifact& artifact) {
 
 }  // namespace
 
-TypeLayers medial_axis_layers() { return {"MedialAxis", layers}; }
+TypeLayers medial_axis_layers() { return {"MedialAxis", layers_of_medial_axis}; }
 
 }  // namespace ballflow::show

@@ -37,7 +37,7 @@ void add_layers(std::vector<Layer>& layers, const PoleSet& poles, PoleLabel labe
   layers.push_back(std::move(balls));
 }
 
-std::vector<Layer> layers(const Artifact& artifact) {
+std::vector<Layer> layers_of_pole_set(const Artifact& artifact) {
   const auto poles = typed<PoleSet>(artifact);
   std::vector<Layer> all;
   add_layers(all, poles, PoleLabel::inner, "inner poles");
@@ -48,6 +48,6 @@ std::vector<Layer> layers(const Artifact& artifact) {
 
 }  // namespace
 
-TypeLayers pole_set_layers() { return {"PoleSet", layers}; }
+TypeLayers pole_set_layers() { return {"PoleSet", layers_of_pole_set}; }
 
 }  // namespace ballflow::show

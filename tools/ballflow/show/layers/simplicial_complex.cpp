@@ -56,7 +56,7 @@ class Part {
   Layer layer_;
 };
 
-std::vector<Layer> layers(const Artifact& artifact) {
+std::vector<Layer> layers_of_simplicial_complex(const Artifact& artifact) {
   const auto complex = typed<SimplicialComplex>(artifact);
   const auto is = [](std::uint8_t value, SimplexClass expected) {
     return value == static_cast<std::uint8_t>(expected);
@@ -80,6 +80,6 @@ std::vector<Layer> layers(const Artifact& artifact) {
 
 }  // namespace
 
-TypeLayers simplicial_complex_layers() { return {"SimplicialComplex", layers}; }
+TypeLayers simplicial_complex_layers() { return {"SimplicialComplex", layers_of_simplicial_complex}; }
 
 }  // namespace ballflow::show
