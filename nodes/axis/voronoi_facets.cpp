@@ -65,7 +65,7 @@ class Facets {
 std::vector<AxisPiece> Facets::run() {
   std::vector<std::int32_t> ring, apexes;
   for (std::size_t i = 0; i < cells().size(); ++i) {
-    if (i % 4096 == 0) monitor_.step(static_cast<double>(i) / static_cast<double>(cells().size()));
+    if (i % 256 == 0) monitor_.step(static_cast<double>(i) / static_cast<double>(cells().size()));
     const DelaunayCell& first = cells()[i];
     for (std::size_t a = 0; a < 3; ++a) {
       if (sites().faces_of(at(first.corners[a])).empty()) continue;

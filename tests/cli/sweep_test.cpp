@@ -47,13 +47,14 @@ struct SweepCli : testing::Test {
   }
 };
 
-const std::vector<std::string> small = {"--set", "input=shape:torus?n=1500", "--set", "sampling=vertices"};
+const std::vector<std::string> small_torus = {"--set", "input=shape:torus?n=1500", "--set",
+                                              "sampling=vertices"};
 
 TEST_F(SweepCli, computes_the_topology_of_what_comes_before_the_pruning_once) {
   const ProcessResult result = ballflow(
       {"run", test::source_file("graphs/medial_axis.json"), "--set", "sampling=vertices", "--set",
        "growth=additive", "--set", "repair=none", "--axis", "strategy=none,greedy,certified", "--set",
-       small[1], "--quiet", "--report", folder.file("report.json"), "--out", folder.file("out")});
+       small_torus[1], "--quiet", "--report", folder.file("report.json"), "--out", folder.file("out")});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json report = json::parse(test::read_file(folder.file("report.json")));
   std::map<std::string, int> executions;
@@ -67,7 +68,7 @@ TEST_F(SweepCli, computes_the_topology_of_what_comes_before_the_pruning_once) {
 }
 
 TEST_F(SweepCli, runs_shared_prefixes_once_and_gives_what_single_runs_give) {
-  const json report = sweep(small, folder.file("out"));
+  const json report = sweep(small_torus, folder.file("out"));
   ASSERT_EQ(report.at("variants").size(), 6u);
   std::map<std::string, int> executions;
   for (const auto& [path, node] : report.at("nodes").items()) {
@@ -88,8 +89,8 @@ TEST_F(SweepCli, runs_shared_prefixes_once_and_gives_what_single_runs_give) {
     const json& params = variant.at("params");
     const ProcessResult alone = test::run_process(
         {test::binary_file("bin/ballflow"), "run", test::source_file("graphs/medial_axis.json"), "--set",
-         "sampling=vertices", "--set", small[1], "--set", "epsilon=" + params.at("epsilon").dump(), "--set",
-         "strategy=" + params.at("strategy").get<std::string>(), "--no-cache", "--quiet", "--report",
+         "sampling=vertices", "--set", small_torus[1], "--set", "epsilon=" + params.at("epsilon").dump(),
+         "--set", "strategy=" + params.at("strategy").get<std::string>(), "--no-cache", "--quiet", "--report",
          folder.file("alone.json")});
     ASSERT_EQ(alone.exit_code, 0) << alone.err;
     const json single = json::parse(test::read_file(folder.file("alone.json")));
@@ -102,14 +103,14 @@ TEST_F(SweepCli, runs_shared_prefixes_once_and_gives_what_single_runs_give) {
   }
 
   // 6 measures of unions, and how the sample was chosen.
-  const json again = sweep(small, folder.file("out"));
+  const json again = sweep(small_torus, folder.file("out"));
   EXPECT_EQ(
       count_statuses(again),
       (std::map<std::string, int>{{"hit", static_cast<int>(report.at("nodes").size()) - 7}, {"skipped", 7}}));
 }
 
 TEST_F(SweepCli, another_strategy_costs_only_what_changed) {
-  std::vector<std::string> arguments = small;
+  std::vector<std::string> arguments = small_torus;
   arguments.insert(arguments.end(), {"--axis", "strategy=greedy"});
   const json first = sweep(arguments, folder.file("out"));
   // Skipped: 3 measures of the union, and once how the sample was chosen.
@@ -132,7 +133,7 @@ TEST_F(SweepCli, another_strategy_costs_only_what_changed) {
 TEST_F(SweepCli, the_report_and_every_graph_fit_their_schemas) {
   if (test::run_process({"/usr/bin/env", "python3", "-c", "import jsonschema"}).exit_code != 0)
     GTEST_SKIP() << "python3-jsonschema is not installed";
-  sweep(small, folder.file("out"));
+  sweep(small_torus, folder.file("out"));
   EXPECT_TRUE(valid_against("schemas/run_report.schema.json", folder.file("out/report.json")));
   test::write_file(folder.file("plain.json"), R"({"map": {"file": ["a*.ply", "b.ply"]},
     "sweep": {"axes": {"s.seed": [1, "x", true]}, "mode": "zip", "exclude": [{"s.seed": 1}]},
@@ -181,7 +182,7 @@ TEST_F(SweepCli, plan_check_and_run_understand_sweeps) {
   EXPECT_NE(checked.out.find(" nodes, 30 outputs, no errors"), std::string::npos) << checked.out;
   const ProcessResult planned = ballflow({"plan", graph, "--axis", "epsilon=0.2"});
   EXPECT_NE(planned.out.find("[strategy=hybrid]/model/prune/rounds"), std::string::npos) << planned.out;
-  const ProcessResult ran = ballflow({"run", graph, "--axis", "epsilon=0.5", small[0], small[1]});
+  const ProcessResult ran = ballflow({"run", graph, "--axis", "epsilon=0.5", small_torus[0], small_torus[1]});
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
   EXPECT_NE(ran.out.find("shared_seconds"), std::string::npos) << ran.out;
   const ProcessResult plain = ballflow({"sweep", test::source_file("graphs/shape.json")});
@@ -190,7 +191,7 @@ TEST_F(SweepCli, plan_check_and_run_understand_sweeps) {
 }
 
 TEST_F(SweepCli, runs_are_listed_and_compared) {
-  sweep(small, folder.file("out"));
+  sweep(small_torus, folder.file("out"));
   for (const char* n : {"400", "800"}) {
     ASSERT_EQ(
         ballflow({"run", test::source_file("graphs/shape.json"), "--set", std::string("n=") + n}).exit_code,

@@ -146,8 +146,7 @@ double limit() {
 #else
   constexpr double slower = 1;
 #endif
-  // 0.12 until MedialAxis needed 0.116 alone and more beside another test; to be lowered again with its gap.
-  return large() ? 1.0 : 0.25 * slower;
+  return large() ? 1.0 : 0.12 * slower;
 }
 
 class Cancellation : public testing::Test {

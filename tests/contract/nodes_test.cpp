@@ -8,20 +8,11 @@
 #include "ballflow/registry.hpp"
 #include "ballflow/run.hpp"
 #include "ballflow/schema.hpp"
+#include "built_registry.hpp"
 #include "test_data.hpp"
 
 namespace ballflow {
 namespace {
-
-class Silent final : public EventSink {
- public:
-  void on(const Event&) override {}
-};
-
-const Registry& registry() {
-  static const auto instance = Registry::load();
-  return *instance;
-}
 
 std::vector<std::string> graph_files() {
   std::vector<std::string> files;

@@ -6,20 +6,11 @@
 #include <ostream>
 
 #include "ballflow/run.hpp"
+#include "built_registry.hpp"
 #include "test_data.hpp"
 
 namespace ballflow {
 namespace {
-
-class Silent final : public EventSink {
- public:
-  void on(const Event&) override {}
-};
-
-const Registry& registry() {
-  static const auto instance = Registry::load();
-  return *instance;
-}
 
 class RealModel : public testing::TestWithParam<const char*> {};
 

@@ -22,7 +22,7 @@ std::uint64_t sets() {
   return text != nullptr ? std::strtoull(text, nullptr, 10) : 400;
 }
 
-class Listener final : public Monitor {
+class DegenerateListener final : public Monitor {
  public:
   void warn(const std::string& text) override { warnings.push_back(text); }
   std::vector<std::string> warnings;
@@ -120,7 +120,7 @@ TEST(DegenerateAxis, has_the_betti_numbers_of_the_union) {
   std::size_t solid = 0;
   for (std::uint64_t seed = 0; seed < sets(); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    Listener listener;
+    DegenerateListener listener;
     const SimplicialComplex complex = alpha_shape(DegenerateSet(seed).balls(), {}, no_monitor());
     const MedialAxis axis = medial_axis(complex, {}, listener);
     EXPECT_EQ(axis_betti(axis, no_monitor()), complex.betti);

@@ -25,7 +25,7 @@ std::string range(const ParamDecl& param) {
   return text;
 }
 
-void describe(const Registry& registry, const NodeDeclaration& node) {
+void describe_node(const Registry& registry, const NodeDeclaration& node) {
   std::printf("%s (behaviour version %d)\n  %s\n", node.id.c_str(), node.version, node.summary.c_str());
   if (!node.doc.empty()) std::printf("\n%s\n", node.doc.c_str());
   if (!node.avoid_when.empty()) std::printf("\nWhen not to use it: %s\n", node.avoid_when.c_str());
@@ -80,7 +80,7 @@ int show_nodes(const Common& common, const NodesArguments& arguments) {
       throw Error(ExitCode::usage, "there is no node type \"" + arguments.describe + "\"",
                   near.empty() ? "\"ballflow nodes\" lists them" : "did you mean \"" + near + "\"?");
     }
-    describe(*registry, *node);
+    describe_node(*registry, *node);
   } else {
     std::vector<std::vector<std::string>> rows;
     for (const auto& [id, node] : registry->nodes()) rows.push_back({id, node.summary});

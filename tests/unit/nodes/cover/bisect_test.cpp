@@ -22,7 +22,7 @@ CoverState cover_of(std::int64_t balls) {
   return cover;
 }
 
-struct Warnings final : Monitor {
+struct BisectWarnings final : Monitor {
   std::vector<std::string> texts;
   void warn(const std::string& text) override { texts.push_back(text); }
 };
@@ -35,7 +35,7 @@ struct Found {
 /// Searches as a loop does; `needed` says how many balls a growth needs.
 Found search(const BisectOptions& options, const std::function<std::int64_t(double)>& needed) {
   Found found{begin_bisection(options), {}};
-  Warnings warnings;
+  BisectWarnings warnings;
   for (int i = 0; i < 200 && found.search.done == 0; ++i) {
     EXPECT_EQ(broken_invariant(found.search), "");
     found.search = bisect(found.search, cover_of(needed(found.search.value)), options, warnings);

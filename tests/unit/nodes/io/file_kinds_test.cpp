@@ -24,15 +24,15 @@ struct Reading {
   std::string warnings, refusal;
 };
 
-struct Listener final : Monitor {
-  explicit Listener(std::string& text) : text_(text) {}
+struct KindsListener final : Monitor {
+  explicit KindsListener(std::string& text) : text_(text) {}
   void warn(const std::string& warning) override { text_ += warning + "\n"; }
   std::string& text_;
 };
 
 Reading read_path(const std::string& path) {
   Reading reading;
-  Listener listener(reading.warnings);
+  KindsListener listener(reading.warnings);
   try {
     reading.file = read_mesh_file(path, {}, listener);
   } catch (const InputError& error) {
@@ -41,7 +41,7 @@ Reading read_path(const std::string& path) {
   return reading;
 }
 
-Reading read(const std::string& name, const std::string& content) {
+Reading read_kind(const std::string& name, const std::string& content) {
   const test::TempFolder folder;
   test::write_file(folder.file(name), content);
   return read_path(folder.file(name));
@@ -92,7 +92,7 @@ TEST(file_kinds, content_that_is_certainly_of_another_format_is_read_as_that) {
   for (const auto& [format, content] : contents) {
     for (const auto& [named, name] : names) {
       SCOPED_TRACE(name + " with " + format);
-      const Reading reading = read(name, content);
+      const Reading reading = read_kind(name, content);
       expect_small_mesh(reading);
       if (format == named) {
         EXPECT_EQ(reading.warnings.find("content"), std::string::npos);
@@ -100,9 +100,9 @@ TEST(file_kinds, content_that_is_certainly_of_another_format_is_read_as_that) {
         EXPECT_TRUE(has(reading.warnings, {"its content is " + format}));
       }
     }
-    expect_small_mesh(read("a." + format + ".zst", test::zstd_packed(content)));
+    expect_small_mesh(read_kind("a." + format + ".zst", test::zstd_packed(content)));
   }
-  EXPECT_TRUE(has(read("a.obj", test::as_xyz(m)).warnings, {"called .obj", "points as text"}));
+  EXPECT_TRUE(has(read_kind("a.obj", test::as_xyz(m)).warnings, {"called .obj", "points as text"}));
 }
 
 TEST(file_kinds, formats_that_are_not_read_are_called_by_their_names) {
@@ -122,12 +122,12 @@ TEST(file_kinds, formats_that_are_not_read_are_called_by_their_names) {
       {"BLENDER-v300", "Blender"}};
   for (const auto& [content, name] : files) {
     for (const char* file : {"a.off", "a.obj", "a.vtk", "a.xyz", "a"}) {
-      EXPECT_TRUE(has(read(file, content).refusal, {name})) << file;
+      EXPECT_TRUE(has(read_kind(file, content).refusal, {name})) << file;
     }
   }
   EXPECT_TRUE(
-      has(read("a.step", "x").refusal, {"unknown extension \".step\"", ".off .obj .ply .stl", ".csv"}));
-  EXPECT_TRUE(has(read("a.obj", "hello\n").refusal, {"no line begins with v"}));
+      has(read_kind("a.step", "x").refusal, {"unknown extension \".step\"", ".off .obj .ply .stl", ".csv"}));
+  EXPECT_TRUE(has(read_kind("a.obj", "hello\n").refusal, {"no line begins with v"}));
 }
 
 // ---- OFF
@@ -141,18 +141,18 @@ TEST(file_kinds, off_headers_of_every_variant_are_read) {
   for (const std::string& header : {"off\n" + counts, "Off " + counts, "OFF" + counts, "off" + counts,
                                     "nOFF\n3\n" + counts, "nOFF 3\n" + counts, "coff\n" + counts}) {
     SCOPED_TRACE(header);
-    expect_small_mesh(read("a.off", header + body));
+    expect_small_mesh(read_kind("a.off", header + body));
     EXPECT_EQ(certain_format(header + body), MeshFormat::off);
   }
   const std::string normals = test::as_off(m, true);
-  expect_small_mesh(read("a.off", replaced(normals, "NOFF", "noff")));
-  EXPECT_FALSE(read("a.off", replaced(normals, "NOFF", "noff")).file.points.normals.empty());
-  expect_four_points(read("a.off", "4OFF\n4 0 0\n0 0 0 1\n3 0 0 2\n0 -2.25 0 1\n0 0 -3 -1\n"));
-  EXPECT_TRUE(has(read("a.off", "4OFF\n4 0 0\n0 0 0 1\n3 0 0 0\n0 1 0 1\n0 0 1 1\n").refusal,
+  expect_small_mesh(read_kind("a.off", replaced(normals, "NOFF", "noff")));
+  EXPECT_FALSE(read_kind("a.off", replaced(normals, "NOFF", "noff")).file.points.normals.empty());
+  expect_four_points(read_kind("a.off", "4OFF\n4 0 0\n0 0 0 1\n3 0 0 2\n0 -2.25 0 1\n0 0 -3 -1\n"));
+  EXPECT_TRUE(has(read_kind("a.off", "4OFF\n4 0 0\n0 0 0 1\n3 0 0 0\n0 1 0 1\n0 0 1 1\n").refusal,
                   {"vertex 1", "w is 0", "line 4"}));
-  EXPECT_TRUE(has(read("a.off", "nOFF\n4\n4 0 0\n0 0 0 1\n").refusal,
+  EXPECT_TRUE(has(read_kind("a.off", "nOFF\n4\n4 0 0\n0 0 0 1\n").refusal,
                   {"dimension \"4\"", "line 2", "readable are OFF"}));
-  EXPECT_TRUE(has(read("a.off", "OFB\n4 0 0\n").refusal, {"begins with \"OFB\"", "COFF", "nOFF"}));
+  EXPECT_TRUE(has(read_kind("a.off", "OFB\n4 0 0\n").refusal, {"begins with \"OFB\"", "COFF", "nOFF"}));
 }
 
 TEST(file_kinds, a_file_out_of_step_names_the_line_that_is_too_short) {
@@ -165,20 +165,20 @@ TEST(file_kinds, a_file_out_of_step_names_the_line_that_is_too_short) {
     return text.substr(0, blank) + text.substr(end - 1);
   };
   // Line 4 has vertex 0, lines 24 and up the faces.
-  EXPECT_TRUE(
-      has(read("a.off", without_last_number(off, 9)).refusal, {"vertex 5 has too few numbers (line 9)"}));
-  EXPECT_TRUE(
-      has(read("a.off", without_last_number(off, 30)).refusal, {"face 6 has too few numbers (line 30)"}));
-  EXPECT_TRUE(has(read("a.off", off + "3 0 1 2\n").refusal,
+  EXPECT_TRUE(has(read_kind("a.off", without_last_number(off, 9)).refusal,
+                  {"vertex 5 has too few numbers (line 9)"}));
+  EXPECT_TRUE(has(read_kind("a.off", without_last_number(off, 30)).refusal,
+                  {"face 6 has too few numbers (line 30)"}));
+  EXPECT_TRUE(has(read_kind("a.off", off + "3 0 1 2\n").refusal,
                   {"\"3\" follows", "20 vertices and 36 faces", "line 60"}));
   const std::string ply = test::as_ply(m, Ply::ascii);
-  EXPECT_TRUE(has(read("a.ply", without_last_number(replaced(ply, " \n", "\n"), 15)).refusal,
+  EXPECT_TRUE(has(read_kind("a.ply", without_last_number(replaced(ply, " \n", "\n"), 15)).refusal,
                   {"the line of vertex 4 has too few values (line 15)"}));
-  EXPECT_TRUE(has(read("a.ply", replaced(ply, "end_header\n", "end_header\n1 2 3 4\n")).refusal,
+  EXPECT_TRUE(has(read_kind("a.ply", replaced(ply, "end_header\n", "end_header\n1 2 3 4\n")).refusal,
                   {"the line of vertex 0 has too many values"}));
-  EXPECT_TRUE(has(read("a.ply", ply + "3 0 1 2\n").refusal, {"\"3\" follows after the last element"}));
+  EXPECT_TRUE(has(read_kind("a.ply", ply + "3 0 1 2\n").refusal, {"\"3\" follows after the last element"}));
   // Numbers may go on in the next line, as long as they are all there.
-  expect_small_mesh(read(
+  expect_small_mesh(read_kind(
       "a.ply",
       replaced(ply, " ", "\n").replace(0, ply.find("end_header"), ply.substr(0, ply.find("end_header")))));
 }
@@ -190,7 +190,7 @@ TEST(file_kinds, a_number_that_is_missing_does_not_move_those_after_it) {
       "z\nelement face 2\n"
       "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n4 0 1 2\n4 3 2 "
       "1 0\n";
-  EXPECT_TRUE(has(read("a.ply", ply).refusal,
+  EXPECT_TRUE(has(read_kind("a.ply", ply).refusal,
                   {"\"3\" follows on its line", "the line of face 0 has too few values (line 15)"}));
 }
 
@@ -209,13 +209,14 @@ TEST(file_kinds, obj_lines_of_every_kind_may_be_continued) {
       else
         continued += c;
     }
-    const Reading reading = read("a.obj", continued);
+    const Reading reading = read_kind("a.obj", continued);
     expect_small_mesh(reading);
     EXPECT_EQ(reading.file.points.normals.size(), m.vertices.size());
   }
   // A comment does not go on.
-  EXPECT_EQ(read("a.obj", "# C:\\models\\\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n").file.points.points.size(),
-            4u);
+  EXPECT_EQ(
+      read_kind("a.obj", "# C:\\models\\\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n").file.points.points.size(),
+      4u);
 }
 
 TEST(file_kinds, obj_faces_may_name_normals_and_textures_that_are_not_there) {
@@ -229,7 +230,7 @@ TEST(file_kinds, obj_faces_may_name_normals_and_textures_that_are_not_there) {
       without += line, both += line.starts_with("f") ? replaced(line, "//", "/1/") : line;
   }
   for (const std::string& obj : {without, both}) {
-    const Reading reading = read("a.obj", obj);
+    const Reading reading = read_kind("a.obj", obj);
     expect_small_mesh(reading);
     EXPECT_TRUE(reading.file.points.normals.empty());
     EXPECT_TRUE(has(reading.warnings,
@@ -239,14 +240,14 @@ TEST(file_kinds, obj_faces_may_name_normals_and_textures_that_are_not_there) {
   // One is missing, or an index is impossible.
   const std::string one =
       with.substr(0, with.rfind("vn")) + with.substr(with.find('\n', with.rfind("vn")) + 1);
-  EXPECT_TRUE(has(read("a.obj", one).warnings, {"but the file has only 19"}));
-  expect_small_mesh(read("a.obj", one));
+  EXPECT_TRUE(has(read_kind("a.obj", one).warnings, {"but the file has only 19"}));
+  expect_small_mesh(read_kind("a.obj", one));
   for (const char* wrong : {"//0", "//-21", "//99999999999"}) {
-    const Reading reading = read("a.obj", replaced(with, "//1 ", wrong + std::string(" ")));
+    const Reading reading = read_kind("a.obj", replaced(with, "//1 ", wrong + std::string(" ")));
     expect_small_mesh(reading);
     EXPECT_TRUE(has(reading.warnings, {wrong, "only 20"}));
   }
-  EXPECT_TRUE(has(read("a.obj", replaced(with, "//1 ", "//x ")).refusal, {"is not a corner", "(line "}));
+  EXPECT_TRUE(has(read_kind("a.obj", replaced(with, "//1 ", "//x ")).refusal, {"is not a corner", "(line "}));
 }
 
 TEST(file_kinds, an_obj_model_is_the_same_without_the_normals_that_its_faces_name) {
@@ -258,7 +259,7 @@ TEST(file_kinds, an_obj_model_is_the_same_without_the_normals_that_its_faces_nam
     end = std::min(content.view().find('\n', at), content.view().size() - 1) + 1;
     if (content.view().substr(at, 2) != "vn") without += content.view().substr(at, end - at);
   }
-  const Reading with = read_path(path), stripped = read("a.obj", without);
+  const Reading with = read_path(path), stripped = read_kind("a.obj", without);
   EXPECT_TRUE(has(stripped.warnings, {"but the file has none"}));
   EXPECT_FALSE(with.file.points.normals.empty());
   EXPECT_EQ(stripped.file.points.points, with.file.points.points);
@@ -271,15 +272,15 @@ TEST(file_kinds, an_obj_model_is_the_same_without_the_normals_that_its_faces_nam
 TEST(file_kinds, ply_faces_without_corners_are_no_cloud) {
   const std::string ply = test::as_ply(test::small_mesh(), Ply::ascii);
   EXPECT_TRUE(
-      has(read("a.ply", replaced(ply, "vertex_indices", "vertices_indices")).refusal,
+      has(read_kind("a.ply", replaced(ply, "vertex_indices", "vertices_indices")).refusal,
           {"\"face\" no list vertex_indices or vertex_index of whole numbers", "list \"vertices_indices\""}));
-  EXPECT_TRUE(has(read("a.ply", replaced(ply, "uchar int", "uchar float")).refusal,
+  EXPECT_TRUE(has(read_kind("a.ply", replaced(ply, "uchar int", "uchar float")).refusal,
                   {"of whole numbers", "\"vertex_indices\" of floating-point numbers"}));
-  EXPECT_TRUE(has(read("a.ply", replaced(ply, "element face", "element faces")).refusal,
+  EXPECT_TRUE(has(read_kind("a.ply", replaced(ply, "element face", "element faces")).refusal,
                   {"element \"faces\"", "call it face"}));
-  EXPECT_TRUE(has(read("a.ply", replaced(ply, "element vertex", "element vertices")).refusal,
+  EXPECT_TRUE(has(read_kind("a.ply", replaced(ply, "element vertex", "element vertices")).refusal,
                   {"no element \"vertex\"", "\"vertices\", \"face\""}));
-  expect_small_mesh(read("a.ply", replaced(ply, "vertex_indices", "vertex_index")));
+  expect_small_mesh(read_kind("a.ply", replaced(ply, "vertex_indices", "vertex_index")));
 }
 
 TEST(file_kinds, the_line_ends_of_a_ply_header_do_not_eat_its_body) {
@@ -292,11 +293,11 @@ TEST(file_kinds, the_line_ends_of_a_ply_header_do_not_eat_its_body) {
     const std::string ply = test::as_ply(m, Ply::little);
     const std::size_t body = ply.find("end_header\n") + 11;
     for (const std::string& end : {std::string("\n"), std::string("\r\n"), std::string("\r")}) {
-      const Reading reading = read("a.ply", replaced(ply.substr(0, body), "\n", end) + ply.substr(body));
+      const Reading reading = read_kind("a.ply", replaced(ply.substr(0, body), "\n", end) + ply.substr(body));
       EXPECT_EQ(reading.refusal, "");
       EXPECT_EQ(reading.file.points.points, m.vertices);
     }
-    EXPECT_TRUE(has(read("a.ply", ply + "xyz").warnings, {"3 bytes after the last element"}));
+    EXPECT_TRUE(has(read_kind("a.ply", ply + "xyz").warnings, {"3 bytes after the last element"}));
   }
 }
 
@@ -307,45 +308,46 @@ TEST(file_kinds, binary_stl_is_read_by_its_length_where_its_count_is_too_small) 
   for (const std::uint32_t count : {0u, 1u, 35u, 0xffffffffu}) {
     std::string wrong = stl.substr(0, 80);
     test::append(wrong, count);
-    const Reading reading = read("a.stl", wrong + stl.substr(84));
+    const Reading reading = read_kind("a.stl", wrong + stl.substr(84));
     expect_small_mesh(reading);
     EXPECT_TRUE(has(reading.warnings, {"promises " + std::to_string(count) + " facets", "that of 36"}));
   }
   std::string wrong = stl.substr(0, 80);
   test::append(wrong, std::uint32_t{37});
-  EXPECT_TRUE(has(read("a.stl", wrong + stl.substr(84)).refusal, {"promises 37 facets", "at most 36"}));
-  EXPECT_TRUE(has(read("a.stl", stl + "12345").warnings, {"5 bytes after the last of the 36 facets"}));
+  EXPECT_TRUE(has(read_kind("a.stl", wrong + stl.substr(84)).refusal, {"promises 37 facets", "at most 36"}));
+  EXPECT_TRUE(has(read_kind("a.stl", stl + "12345").warnings, {"5 bytes after the last of the 36 facets"}));
 }
 
 TEST(file_kinds, ascii_stl_is_read_word_by_word) {
   const std::string stl = test::as_ascii_stl(test::small_mesh());
-  expect_small_mesh(read("a.stl", replaced(stl, "endloop", "end loop")));
-  expect_small_mesh(read("a.stl", replaced(replaced(stl, "endfacet", "end facet"), "endsolid", "END SOLID")));
-  expect_small_mesh(read("a.stl", replaced(stl, " normal 0 0 0", "")));
-  expect_small_mesh(read("a.stl", replaced(stl, "0 0 0\n", "-nan(ind) 0 0\n")));
+  expect_small_mesh(read_kind("a.stl", replaced(stl, "endloop", "end loop")));
+  expect_small_mesh(
+      read_kind("a.stl", replaced(replaced(stl, "endfacet", "end facet"), "endsolid", "END SOLID")));
+  expect_small_mesh(read_kind("a.stl", replaced(stl, " normal 0 0 0", "")));
+  expect_small_mesh(read_kind("a.stl", replaced(stl, "0 0 0\n", "-nan(ind) 0 0\n")));
   std::string one_line_each;
   for (std::size_t at = 0; at < stl.size(); ++at) {
     const bool ends = stl.compare(at - std::min<std::size_t>(at, 8), 8, "endfacet") == 0;
     one_line_each += stl[at] == '\n' && !ends && at > 21 ? ' ' : stl[at];
   }
-  expect_small_mesh(read("a.stl", one_line_each));
-  expect_small_mesh(read("a.stl", replaced(stl, "\n", " ")));
-  EXPECT_TRUE(has(read("a.stl", replaced(stl, "endloop", "ende loop")).refusal,
+  expect_small_mesh(read_kind("a.stl", one_line_each));
+  expect_small_mesh(read_kind("a.stl", replaced(stl, "\n", " ")));
+  EXPECT_TRUE(has(read_kind("a.stl", replaced(stl, "endloop", "ende loop")).refusal,
                   {"\"endloop\" expected, found \"ende\"", "line 7"}));
   EXPECT_TRUE(
-      has(read("a.stl", stl.substr(0, stl.find("endsolid")) + "end\n").refusal, {"\"solid\" expected"}));
+      has(read_kind("a.stl", stl.substr(0, stl.find("endsolid")) + "end\n").refusal, {"\"solid\" expected"}));
 }
 
 // ---- points
 
 TEST(file_kinds, decimal_commas_never_become_other_coordinates) {
-  expect_four_points(read("a.xyz", "0 0 0\n1.5 0 0\n0 -2.25 0\n0 0 3\n"));
+  expect_four_points(read_kind("a.xyz", "0 0 0\n1.5 0 0\n0 -2.25 0\n0 0 3\n"));
   for (const char* text : {"0,0 0,0 0,0\n1,5 0,0 0,0\n0,0 -2,25 0,0\n0,0 0,0 3,0\n",
                            "0 0 0\n1,5 0 0\n0 -2,25 0\n0 0 3\n", "0;0;0\n1,5;0;0\n0;-2,25;0\n0;0;3\n",
                            "0,0, 0,0, 0,0\n1,5, 0,0, 0,0\n0,0, -2,25, 0,0\n0,0, 0,0, 3,0\n",
                            "x\ty\tz\n0\t0\t0\n1,5\t0\t0\n0\t-2,25\t0\n0\t0\t3\n"}) {
     SCOPED_TRACE(text);
-    const Reading reading = read("a.xyz", text);
+    const Reading reading = read_kind("a.xyz", text);
     expect_four_points(reading);
     EXPECT_TRUE(has(reading.warnings, {"decimal commas"}));
   }
@@ -355,7 +357,7 @@ TEST(file_kinds, decimal_commas_never_become_other_coordinates) {
                            "x,y,z\n0,0,0\n1.5,0,0\n0,-2.25,0\n0,0,3\n",
                            "0,0,0,0,0,9\n1.5,0,0,0,0,9\n0,-2.25,0,0,0,9\n0,0,3,0,0,9\n"}) {
     SCOPED_TRACE(text);
-    const Reading reading = read("a.csv", text);
+    const Reading reading = read_kind("a.csv", text);
     expect_four_points(reading);
     EXPECT_EQ(reading.warnings.find("decimal"), std::string::npos);
   }
@@ -370,37 +372,37 @@ TEST(file_kinds, decimal_commas_never_become_other_coordinates) {
       {"0,0,0\n1,5 0,0 0,0\n", {"in another", "line 2"}},
       {"1,,3,4\n", {"y is missing", "line 1"}},
       {"1.5,,3,4\n", {"y is missing", "line 1"}}};
-  for (const auto& [text, words] : refused) EXPECT_TRUE(has(read("a.txt", text).refusal, words)) << text;
-  EXPECT_TRUE(has(read("a.off", "OFF\n1 0 0\n1,5 0,0 0,0\n").refusal,
+  for (const auto& [text, words] : refused) EXPECT_TRUE(has(read_kind("a.txt", text).refusal, words)) << text;
+  EXPECT_TRUE(has(read_kind("a.off", "OFF\n1 0 0\n1,5 0,0 0,0\n").refusal,
                   {"vertex 0", "\"1,5\"", "line 3", "decimal comma"}));
-  EXPECT_TRUE(has(read("a.obj", "v 1,5 0,0 0,0\n").refusal, {"decimal comma"}));
+  EXPECT_TRUE(has(read_kind("a.obj", "v 1,5 0,0 0,0\n").refusal, {"decimal comma"}));
 }
 
 TEST(file_kinds, columns_are_found_by_their_names) {
-  expect_four_points(read("a.xyz", "X Y Z\n0 0 0\n1.5 0 0\n0 -2.25 0\n0 0 3\n"));
+  expect_four_points(read_kind("a.xyz", "X Y Z\n0 0 0\n1.5 0 0\n0 -2.25 0\n0 0 3\n"));
   expect_four_points(
-      read("a.csv", "id,\"Z [m]\",Y,X\n\"scan 1, a\",0,0,0\n7,0,0,1.5\n7,0,-2.25,0\n7,3,0,0\n"));
-  expect_four_points(read(
+      read_kind("a.csv", "id,\"Z [m]\",Y,X\n\"scan 1, a\",0,0,0\n7,0,0,1.5\n7,0,-2.25,0\n7,3,0,0\n"));
+  expect_four_points(read_kind(
       "a.csv", "\"t\",\"Points:0\",\"Points:1\",\"Points:2\"\n1,0,0,0\n1,1.5,0,0\n1,0,-2.25,0\n1,0,0,3\n"));
-  expect_four_points(read("a.asc", "//X Y Z\n0 0 0\n1.5 0 0\n0 -2.25 0\n0 0 3\n"));
+  expect_four_points(read_kind("a.asc", "//X Y Z\n0 0 0\n1.5 0 0\n0 -2.25 0\n0 0 3\n"));
   const Reading normals =
-      read("a.csv", "nx,ny,nz,x,y,z\n0,0,2,0,0,0\n0,0,2,1.5,0,0\n0,0,2,0,-2.25,0\n0,0,2,0,0,3\n");
+      read_kind("a.csv", "nx,ny,nz,x,y,z\n0,0,2,0,0,0\n0,0,2,1.5,0,0\n0,0,2,0,-2.25,0\n0,0,2,0,0,3\n");
   expect_four_points(normals);
   EXPECT_EQ(normals.file.points.normals, (Array<Vec3>{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}}));
-  const Reading words = read("a.xyz", "made by a scanner\n0 0 0\n1.5 0 0\n0 -2.25 0\n0 0 3\n");
+  const Reading words = read_kind("a.xyz", "made by a scanner\n0 0 0\n1.5 0 0\n0 -2.25 0\n0 0 3\n");
   expect_four_points(words);
   EXPECT_TRUE(has(words.warnings, {"\"made by a scanner\", is passed over"}));
-  EXPECT_TRUE(has(read("a.xyz", "x y w\n0 0 0\n").refusal, {"not all of x, y and z", "line 1"}));
-  EXPECT_TRUE(has(read("a.xyz", "C 0 0 0\n").refusal, {"point 0: x is \"C\"", "line 1"}));
+  EXPECT_TRUE(has(read_kind("a.xyz", "x y w\n0 0 0\n").refusal, {"not all of x, y and z", "line 1"}));
+  EXPECT_TRUE(has(read_kind("a.xyz", "C 0 0 0\n").refusal, {"point 0: x is \"C\"", "line 1"}));
 }
 
 TEST(file_kinds, scans_one_after_another_are_joined) {
-  const Reading reading = read("a.pts", "2\n0 0 0\n1.5 0 0\n2\n0 -2.25 0\n0 0 3\n");
+  const Reading reading = read_kind("a.pts", "2\n0 0 0\n1.5 0 0\n2\n0 -2.25 0\n0 0 3\n");
   expect_four_points(reading);
   EXPECT_TRUE(has(reading.warnings, {"2 scans"}));
-  EXPECT_TRUE(has(read("a.pts", "2\n0 0 0\n1.5 0 0\n3\n0 -2.25 0\n0 0 3\n").refusal,
+  EXPECT_TRUE(has(read_kind("a.pts", "2\n0 0 0\n1.5 0 0\n3\n0 -2.25 0\n0 0 3\n").refusal,
                   {"promise 5 points, the file has 4"}));
-  EXPECT_TRUE(has(read("a.pts", "3\n0 0 0\n1.5 0 0\n2\n0 -2.25 0\n0 0 3\n").refusal,
+  EXPECT_TRUE(has(read_kind("a.pts", "3\n0 0 0\n1.5 0 0\n2\n0 -2.25 0\n0 0 3\n").refusal,
                   {"point 2: y is missing", "line 4"}));
 }
 

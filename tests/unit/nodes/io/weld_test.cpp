@@ -20,7 +20,7 @@
 namespace ballflow::geometry {
 namespace {
 
-struct Listener final : Monitor {
+struct WeldListener final : Monitor {
   void warn(const std::string& warning) override { text += warning + "\n"; }
   std::string text;
 };
@@ -87,7 +87,7 @@ TEST(weld, closes_the_cracks_of_a_mesh_with_the_tolerance_that_a_warning_names) 
   Random random(3);
   for (const double jitter : {1e-12, 1e-7, 1e-3}) {
     const std::string content = with_cracks(m, jitter, random);
-    Listener listener;
+    WeldListener listener;
     const MeshFile open = parse_mesh(content, MeshFormat::stl, {}, listener);
     EXPECT_FALSE(mesh_topology(open.mesh).closed);
     EXPECT_NE(listener.text.find("open at 108 edges"), std::string::npos) << listener.text;
@@ -95,7 +95,7 @@ TEST(weld, closes_the_cracks_of_a_mesh_with_the_tolerance_that_a_warning_names) 
     ReadOptions options;
     options.weld = parse_tolerance(proposed(listener.text, "weld"));
     EXPECT_LT(options.weld.value, 16 * jitter);
-    Listener quiet;
+    WeldListener quiet;
     const MeshFile closed = parse_mesh(content, MeshFormat::stl, options, quiet);
     const MeshTopology t = mesh_topology(closed.mesh);
     EXPECT_TRUE(t.closed && t.manifold && t.oriented);
@@ -113,7 +113,7 @@ TEST(weld, closes_the_cracks_of_a_mesh_with_the_tolerance_that_a_warning_names) 
 TEST(weld, is_not_proposed_for_holes_and_closed_meshes) {
   const TriangleMesh m = test::small_mesh();
   const auto warnings = [](const TriangleMesh& mesh) {
-    Listener listener;
+    WeldListener listener;
     parse_mesh(test::as_off(mesh), MeshFormat::off, {}, listener);
     return listener.text;
   };
@@ -124,7 +124,7 @@ TEST(weld, is_not_proposed_for_holes_and_closed_meshes) {
   EXPECT_FALSE(mesh_topology(hole).closed);
   // A crack beside a hole.
   Random random(5);
-  Listener listener;
+  WeldListener listener;
   parse_mesh(with_cracks(hole, 1e-6, random), MeshFormat::stl, {}, listener);
   EXPECT_NE(listener.text.find(", closes all but "), std::string::npos) << listener.text;
 }
@@ -136,7 +136,7 @@ TEST(strays, are_named_and_left_out_when_asked_for) {
     cloud += test::text(Vec3{700 + at_random(random), 5300 + at_random(random), at_random(random)}) + "\n";
     if (i % 100 == 50) cloud += "0 0 0\n";
   }
-  Listener listener;
+  WeldListener listener;
   const MeshFile kept = parse_mesh(cloud, MeshFormat::xyz, {}, listener);
   EXPECT_EQ(kept.points.points.size(), 401u);
   EXPECT_NE(listener.text.find("1 point, (0, 0, 0), is 5347"), std::string::npos) << listener.text;
@@ -222,14 +222,14 @@ TEST(scale, is_a_factor_or_a_unit_that_becomes_metres) {
 TEST(weld, scale_and_strays_mend_the_reported_files) {
   const auto path = [](const char* name) { return test::data_file(std::string("reports/") + name); };
   if (path("README.md").empty()) GTEST_SKIP() << "no test data";
-  Listener cracks;
+  WeldListener cracks;
   EXPECT_FALSE(mesh_topology(read_mesh_file(path("stl/cracks.stl.gz"), {}, cracks).mesh).closed);
   ReadOptions options;
   options.weld = parse_tolerance(proposed(cracks.text, "weld"));
   const MeshTopology torus = mesh_topology(read_mesh_file(path("stl/cracks.stl.gz"), options).mesh);
   EXPECT_TRUE(torus.closed && torus.manifold);
   EXPECT_EQ(torus.genus, 1);
-  Listener zeros;
+  WeldListener zeros;
   read_mesh_file(path("points/zeros.xyz"), {}, zeros);
   EXPECT_NE(zeros.text.find("1 point, (0, 0, 0), is 5"), std::string::npos) << zeros.text;
   options = {};
