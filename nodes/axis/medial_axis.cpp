@@ -107,16 +107,17 @@ void Axis::add_singular_part() {
     return static_cast<std::size_t>(std::lower_bound(all.begin(), all.end(), simplex) - all.begin());
   };
   for (const auto& t : complex_.tetrahedra) {
-    look_(64);
+    look_(256);  // searches
     for (std::size_t k = 0; k < 4; ++k) has_tetrahedron[index(complex_.triangles, skip(t, k))] = true;
   }
   for (std::size_t i = 0; i < complex_.triangles.size(); ++i) {
-    look_(64);
+    look_(256);
     const auto& t = complex_.triangles[i];
     for (std::size_t k = 0; k < 3; ++k) has_triangle[index(complex_.edges, skip(t, k))] = true;
     if (!has_tetrahedron[i]) pieces_.push_back({{t[0], t[1], t[2]}, AxisKind::singular});
   }
   for (std::size_t i = 0; i < complex_.edges.size(); ++i) {
+    look_(8);
     for (const std::int32_t b : complex_.edges[i]) has_edge[at(b)] = true;
     if (!has_triangle[i]) edges_.push_back(complex_.edges[i]);
   }
