@@ -140,7 +140,7 @@ MedialAxis Axis::finish() {
   std::vector<std::int32_t> index(
       complex_.centers.size() + (places_ != nullptr ? places_->cells().size() : 0), -1);
   for (const AxisPiece& piece : pieces_) {
-    look_(16);
+    look_(64);
     for (const std::int32_t name : piece.corners) index[at(name)] = 0;
   }
   for (const auto& edge : edges_) {
@@ -150,7 +150,7 @@ MedialAxis Axis::finish() {
   std::vector<Vec3> vertices;
   std::vector<double> radii;
   for (std::size_t name = 0; name < index.size(); ++name) {
-    look_(8);
+    look_(64);
     if (index[name] < 0) continue;
     index[name] = static_cast<std::int32_t>(vertices.size());
     if (name < complex_.centers.size()) {
@@ -168,7 +168,7 @@ MedialAxis Axis::finish() {
     }
   }
   for (AxisPiece& piece : pieces_) {
-    look_(16);
+    look_(64);
     std::vector<std::int32_t>& p = piece.corners;
     for (std::int32_t& corner : p) corner = index[at(corner)];
     std::rotate(p.begin(), std::min_element(p.begin(), p.end()), p.end());
@@ -176,7 +176,7 @@ MedialAxis Axis::finish() {
   }
   monitor_.step(0.93);
   std::sort(pieces_.begin(), pieces_.end(), [this](const AxisPiece& a, const AxisPiece& b) {
-    look_(8);
+    look_(32);
     return a.corners != b.corners ? a.corners < b.corners : a.kind < b.kind;
   });
   monitor_.step(0.96);
@@ -186,7 +186,7 @@ MedialAxis Axis::finish() {
   std::vector<std::int32_t> corners;
   std::vector<std::uint8_t> kinds;
   for (const AxisPiece& piece : pieces_) {
-    look_(16);
+    look_(64);
     corners.insert(corners.end(), piece.corners.begin(), piece.corners.end());
     offsets.push_back(static_cast<std::int64_t>(corners.size()));
     kinds.push_back(static_cast<std::uint8_t>(piece.kind));

@@ -241,10 +241,11 @@ bool cells_are_closed(const SimplicialComplex& complex, const UnionVertices& sit
     }
   }
   std::sort(sides.begin(), sides.end(), [&look](const SideOfCell& a, const SideOfCell& b) {
-    look(2);
+    look(4);
     return a < b;
   });
   for (std::size_t i = 0; i < sides.size(); i += 2) {
+    look(2);
     if (i + 1 == sides.size() || sides[i] != sides[i + 1]) return false;
   }
   return true;
