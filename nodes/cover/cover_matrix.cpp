@@ -79,21 +79,6 @@ struct BlockHits {
 // has a hit in every leaf, and is asked again.
 constexpr std::int64_t hits_per_ball = 128;
 
-void require_memory(std::int64_t entries, const CoverMatrixOptions& options) {
-  const double bytes = 4.0 * static_cast<double>(entries);
-  const double memory =
-      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  if (entries <= options.max_entries && bytes <= memory) return;
-  char size[32];
-  std::snprintf(size, sizeof size, "%.1f GB", bytes / 1e9);
-  throw InputError(
-      "the matrix would have " + std::to_string(entries) + " entries (" + size + "); " +
-          (entries > options.max_entries
-               ? "max_entries is " + std::to_string(options.max_entries)
-               : "the machine has " + std::to_string(static_cast<std::int64_t>(memory / 1e9)) + " GB"),
-      "enlarge the balls less, thin the sample, or raise max_entries on a machine with more memory");
-}
-
 /// `balls` and one ball of radius 0 at each of `samples`, which it is defined by.
 Balls with_points(const Balls& balls, const PointSet& points, const std::vector<std::int32_t>& samples) {
   if (samples.empty()) return balls;
@@ -124,6 +109,21 @@ std::string how_many(const std::vector<std::int32_t>& uncovered, std::size_t sam
 }
 
 }  // namespace
+
+void require_memory(std::int64_t entries, const CoverMatrixOptions& options) {
+  const double bytes = 4.0 * static_cast<double>(entries);
+  const double memory =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (entries <= options.max_entries && bytes <= memory) return;
+  char size[32];
+  std::snprintf(size, sizeof size, "%.1f GB", bytes / 1e9);
+  throw InputError(
+      "the matrix would have " + std::to_string(entries) + " entries (" + size + "); " +
+          (entries > options.max_entries
+               ? "max_entries is " + std::to_string(options.max_entries)
+               : "the machine has " + std::to_string(static_cast<std::int64_t>(memory / 1e9)) + " GB"),
+      "enlarge the balls less, thin the sample, or raise max_entries on a machine with more memory");
+}
 
 void require_coverable(const Balls& balls, const PointSet& points) {
   constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();

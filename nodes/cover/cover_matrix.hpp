@@ -39,6 +39,9 @@ struct CoverMatrix {
 CoverMatrix cover_matrix(const Balls& balls, const PointSet& points, const CoverMatrixOptions& options = {},
                          Monitor& monitor = no_monitor());
 
+/// Refuses a matrix of more than `max_entries` entries or larger than the memory of the machine.
+void require_memory(std::int64_t entries, const CoverMatrixOptions& options);
+
 /// Refuses coordinates and radii whose squares overflow, and defining samples out of range.
 void require_coverable(const Balls& balls, const PointSet& points);
 

@@ -2,6 +2,7 @@
 
 #include <ballflow/sdk.hpp>
 
+#include "cover/patch_matrix.hpp"
 #include "types/artifact_types.hpp"
 
 namespace ballflow::nodes {
@@ -12,6 +13,7 @@ using namespace geometry;
 struct CoverMatrixNode {
   In<Balls> balls;
   In<PointSet> points;
+  In<TriangleMesh> patches;
   Out<CoverState> cover;
   Out<Balls> all_balls;
   CoverMatrixOptions options;
@@ -30,6 +32,12 @@ struct CoverMatrixNode {
     d.cites("kornberger2010", "3.6.1");
     d.input("balls", &CoverMatrixNode::balls).doc("candidate balls, the rows");
     d.input("points", &CoverMatrixNode::points).doc("samples to be covered, the columns");
+    d.input("patches", &CoverMatrixNode::patches)
+        .optional()
+        .doc(
+            "triangles of the points; where there are any, they are to be covered in place of the points, "
+            "each "
+            "by one ball that contains its corners");
     d.output("cover", &CoverMatrixNode::cover).doc("the matrix, nothing chosen yet");
     d.output("balls", &CoverMatrixNode::all_balls)
         .doc(
@@ -51,7 +59,9 @@ struct CoverMatrixNode {
 
   void run(RunContext& context) {
     ContextMonitor monitor(context);
-    CoverMatrix result = cover_matrix(*balls, *points, options, monitor);
+    CoverMatrix result = patches && !patches->triangles.empty()
+                             ? patch_matrix(*balls, *patches, options, monitor)
+                             : cover_matrix(*balls, *points, options, monitor);
     cover = std::move(result.cover);
     all_balls = std::move(result.balls);
   }

@@ -4,6 +4,7 @@
 namespace ballflow::nodes {
 const bf_node* bisect_entry();
 const bf_node* cover_matrix_entry();
+const bf_node* cover_points_entry();
 const bf_node* load_cover_entry();
 const bf_node* reduce_entry();
 const bf_node* ip_solve_entry();
@@ -18,6 +19,7 @@ BALLFLOW_PLUGIN("cover", "0.1.0",
                 (std::vector<const bf_node*>{
                     ballflow::nodes::bisect_entry(),
                     ballflow::nodes::cover_matrix_entry(),
+                    ballflow::nodes::cover_points_entry(),
                     ballflow::nodes::load_cover_entry(),
                     ballflow::nodes::reduce_entry(),
                     ballflow::nodes::ip_solve_entry(),

@@ -13,6 +13,7 @@
 
 #include "base/for_each_block.hpp"
 #include "cover/cover_matrix.hpp"
+#include "cover/patch_matrix.hpp"
 #include "search/membership.hpp"
 
 namespace ballflow::geometry {
@@ -66,13 +67,13 @@ class SampleGrid {
     return ends;
   }
 
-  /// Takes out the samples that `in_ball` accepts, in the rows of cubes [first, last) alone; it accepts none
-  /// outside of `reach`. Calls for different rows may run at once.
+  /// Takes out the samples whose numbers `in_ball` accepts, in the rows of cubes [first, last) alone; it
+  /// accepts none outside of `reach`. Calls for different rows may run at once.
   template <class InBall>
   void take(const Reach& reach, std::size_t first_row, std::size_t last_row, InBall in_ball) {
     for_cells(reach, first_row, last_row, [&](std::size_t cell) {
       for (std::size_t k = first_[cell]; k < last_[cell];) {
-        if (in_ball(samples_[static_cast<std::size_t>(ids_[k])])) {
+        if (in_ball(ids_[k])) {
           std::swap(ids_[k], ids_[--last_[cell]]);
         } else {
           ++k;
@@ -139,6 +140,47 @@ class SampleGrid {
 // Balls between two looks at the monitor.
 constexpr std::size_t block = 256;
 
+/// What is to be covered: samples, or triangles of them where there are any.
+class Demanded {
+ public:
+  Demanded(const PointSet& points, const TriangleMesh& patches) : patches_(patches) {
+    if (patches.triangles.empty()) {
+      places_ = points.points;
+      return;
+    }
+    if (const std::string broken = broken_invariant(patches); !broken.empty()) {
+      throw InputError("the patches are damaged: " + broken, "connect the patches of CoverPoints");
+    }
+    std::vector<Vec3> corners;
+    for (const Triangle& patch : patches.triangles) {
+      corners.push_back(patches.vertices[static_cast<std::size_t>(patch[0])]);
+    }
+    places_ = std::move(corners);
+  }
+  bool are_patches() const { return !patches_.triangles.empty(); }
+  std::size_t size() const { return places_.size(); }
+  /// A point of each, whose ball it must be in.
+  const Array<Vec3>& places() const { return places_; }
+  /// By membership.hpp alone: a sample that defines the ball is the caller's to know.
+  bool is_in(Vec3 center, double reach, std::int32_t k) const {
+    const auto i = static_cast<std::size_t>(k);
+    return are_patches() ? contains_patch(center, reach, patches_, patches_.triangles[i])
+                         : in_reach(center, reach, places_[i]);
+  }
+  /// Of those that define the ball `i` and are in it whatever the predicate says.
+  std::span<const std::int32_t> defining(const Balls& balls, std::size_t i) const {
+    return are_patches() ? std::span<const std::int32_t>() : balls.samples_of(i);
+  }
+  std::string name(std::size_t k) const {
+    return (are_patches() ? "triangle " : "sample ") + std::to_string(k);
+  }
+  const char* plural() const { return are_patches() ? "triangles" : "samples"; }
+
+ private:
+  const TriangleMesh& patches_;
+  Array<Vec3> places_;
+};
+
 std::string in_words(Vec3 p) {
   char place[96];
   std::snprintf(place, sizeof place, "(%.9g, %.9g, %.9g)", p.x, p.y, p.z);
@@ -165,11 +207,13 @@ std::string broken_condition(const CoverState& cover, std::size_t i, std::span<c
 }  // namespace
 
 CoverCheck verify_cover(const Balls& balls, const PointSet& points, const VerifyCoverOptions& options,
-                        Monitor& monitor, std::span<const std::int32_t> without_candidate) {
+                        Monitor& monitor, std::span<const std::int32_t> without_candidate,
+                        const TriangleMesh& patches) {
   require_coverable(balls, points);
   monitor.step(0);
-  const std::size_t n = points.points.size();
-  SampleGrid grid(points.points);
+  const Demanded demanded(points, patches);
+  const std::size_t n = demanded.size();
+  SampleGrid grid(demanded.places());
   std::vector<SampleGrid::Reach> reach(balls.size());
   for_each_block(balls.size(), block, monitor, 0, 0.2, [&](std::size_t, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) reach[i] = grid.reach_of(balls.centers[i], balls.radii[i]);
@@ -181,19 +225,21 @@ CoverCheck verify_cover(const Balls& balls, const PointSet& points, const Verify
       if (i % 4096 == 0 && monitor.cancelled()) throw Cancelled();
       const double squared = squared_reach(balls.radii[i]);
       grid.take(reach[i], parts[part], parts[part + 1],
-                [&](Vec3 s) { return in_reach(balls.centers[i], squared, s); });
+                [&](std::int32_t k) { return demanded.is_in(balls.centers[i], squared, k); });
     }
   });
   std::vector<std::uint8_t> defines(n);
-  for (const std::int32_t s : balls.defining_samples) defines[static_cast<std::size_t>(s)] = 1;
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    for (const std::int32_t s : demanded.defining(balls, i)) defines[static_cast<std::size_t>(s)] = 1;
+  }
   std::vector<std::int32_t> uncovered = grid.rest();
   std::erase_if(uncovered, [&](std::int32_t s) { return defines[static_cast<std::size_t>(s)] != 0; });
   monitor.step(1);
 
-  const auto describe = [&](std::span<const std::int32_t> samples, const char* what) {
-    return std::to_string(samples.size()) + " of " + std::to_string(n) + " samples " + what +
-           ", the first is sample " + std::to_string(samples.front()) + " at " +
-           in_words(points.points[static_cast<std::size_t>(samples.front())]);
+  const auto describe = [&](std::span<const std::int32_t> listed, const char* what) {
+    const auto first = static_cast<std::size_t>(listed.front());
+    return std::to_string(listed.size()) + " of " + std::to_string(n) + " " + demanded.plural() + " " + what +
+           ", the first is " + demanded.name(first) + " at " + in_words(demanded.places()[first]);
   };
   std::vector<std::int32_t> missed;  // a ball could cover them
   std::set_difference(uncovered.begin(), uncovered.end(), without_candidate.begin(), without_candidate.end(),
@@ -217,63 +263,64 @@ CoverCheck verify_cover(const Balls& balls, const PointSet& points, const Verify
 }
 
 void verify_uncovered(const CoverState& cover, const Balls& candidates, const PointSet& points,
-                      Monitor& monitor) {
+                      Monitor& monitor, const TriangleMesh& patches) {
   if (cover.uncovered.empty()) return;
-  const auto refuse = [](const std::string& cause) {
+  const Demanded demanded(points, patches);
+  const auto refuse = [&](const std::string& cause) {
     throw InputError(
-        "the cover lists samples without a candidate, and " + cause,
+        std::string("the cover lists ") + demanded.plural() + " without a candidate, and " + cause,
         "connect the cover, the balls of its covering matrix and its points; else compute it again");
   };
   require_coverable(candidates, points);
-  std::vector<std::uint8_t> listed(points.points.size(), 0);
+  std::vector<std::uint8_t> listed(demanded.size(), 0);
   std::vector<Vec3> places;
   for (const std::int32_t s : cover.uncovered) {
     if (s < 0 || static_cast<std::size_t>(s) >= listed.size()) {
-      refuse("sample " + std::to_string(s) + " does not exist");
+      refuse((demanded.are_patches() ? "triangle " : "sample ") + std::to_string(s) + " does not exist");
     }
     listed[static_cast<std::size_t>(s)] = 1;
-    places.push_back(points.points[static_cast<std::size_t>(s)]);
+    places.push_back(demanded.places()[static_cast<std::size_t>(s)]);
   }
   const auto covered = [&](std::size_t ball, std::int32_t sample) {
-    refuse("sample " + std::to_string(sample) + " is in ball " + std::to_string(ball));
+    refuse(demanded.name(static_cast<std::size_t>(sample)) + " is in ball " + std::to_string(ball));
   };
   const SampleGrid grid(places);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (i % 4096 == 0 && monitor.cancelled()) throw Cancelled();
-    for (const std::int32_t s : candidates.samples_of(i)) {
+    for (const std::int32_t s : demanded.defining(candidates, i)) {
       if (listed[static_cast<std::size_t>(s)] == 1) covered(i, s);
     }
     const double reach = squared_reach(candidates.radii[i]);
     grid.near(candidates.centers[i], candidates.radii[i], [&](std::int32_t k) {
-      if (in_reach(candidates.centers[i], reach, places[static_cast<std::size_t>(k)])) {
-        covered(i, cover.uncovered[static_cast<std::size_t>(k)]);
-      }
+      const std::int32_t s = cover.uncovered[static_cast<std::size_t>(k)];
+      if (demanded.is_in(candidates.centers[i], reach, s)) covered(i, s);
     });
   }
 }
 
 std::int64_t verify_certificate(const CoverState& cover, const Balls& candidates, const PointSet& points,
-                                Monitor& monitor) {
+                                Monitor& monitor, const TriangleMesh& patches) {
   monitor.step(0);
+  const Demanded demanded(points, patches);
   const auto refuse = [](const std::string& cause) {
     throw InputError(
         "the certificate is refused: " + cause,
         "connect the cover, the balls of its covering matrix and its points; else compute it again");
   };
   if (cover.balls != static_cast<std::int64_t>(candidates.size()) ||
-      cover.samples != static_cast<std::int64_t>(points.points.size())) {
+      cover.samples != static_cast<std::int64_t>(demanded.size())) {
     refuse("it is about " + std::to_string(cover.balls) + " balls and " + std::to_string(cover.samples) +
-           " samples, there are " + std::to_string(candidates.size()) + " and " +
-           std::to_string(points.points.size()));
+           " " + demanded.plural() + ", there are " + std::to_string(candidates.size()) + " and " +
+           std::to_string(demanded.size()));
   }
   require_coverable(candidates, points);
   if (const std::string broken = broken_invariant(cover); !broken.empty()) refuse(broken);
 
   const auto& listed = cover.certificate_samples;
   std::vector<Vec3> places;
-  std::vector<std::int32_t> entry(points.points.size(), -1);  // of each sample in the certificate
+  std::vector<std::int32_t> entry(demanded.size(), -1);  // of each sample in the certificate
   for (std::size_t k = 0; k < listed.size(); ++k) {
-    places.push_back(points.points[static_cast<std::size_t>(listed[k])]);
+    places.push_back(demanded.places()[static_cast<std::size_t>(listed[k])]);
     entry[static_cast<std::size_t>(listed[k])] = static_cast<std::int32_t>(k);
   }
   const SampleGrid grid(places);
@@ -288,10 +335,10 @@ std::int64_t verify_certificate(const CoverState& cover, const Balls& candidates
                      inside.clear();
                      const double reach = squared_reach(candidates.radii[i]);
                      grid.near(candidates.centers[i], candidates.radii[i], [&](std::int32_t k) {
-                       if (in_reach(candidates.centers[i], reach, places[static_cast<std::size_t>(k)]))
+                       if (demanded.is_in(candidates.centers[i], reach, listed[static_cast<std::size_t>(k)]))
                          inside.push_back(k);
                      });
-                     for (const std::int32_t s : candidates.samples_of(i)) {
+                     for (const std::int32_t s : demanded.defining(candidates, i)) {
                        if (entry[static_cast<std::size_t>(s)] >= 0)
                          inside.push_back(entry[static_cast<std::size_t>(s)]);
                      }
@@ -311,9 +358,10 @@ std::int64_t verify_certificate(const CoverState& cover, const Balls& candidates
   if (first_cause < blocks) refuse(causes[first_cause]);
   for (std::size_t k = 0; k < listed.size(); ++k) {
     if (met[k]) continue;
-    refuse("sample " + std::to_string(listed[k]) + " at " + in_words(places[k]) + " is in none of the " +
-           std::to_string(candidates.size()) + " balls, so that none has to pay its price " +
-           std::to_string(cover.certificate_prices[k]) + " / " + std::to_string(price_unit));
+    refuse(demanded.name(static_cast<std::size_t>(listed[k])) + " at " + in_words(places[k]) +
+           " is in none of the " + std::to_string(candidates.size()) +
+           " balls, so that none has to pay its price " + std::to_string(cover.certificate_prices[k]) +
+           " / " + std::to_string(price_unit));
   }
   monitor.step(1);
   return cover.certified_bound();

@@ -14,6 +14,7 @@ struct VerifyCover {
   In<PointSet> points;
   In<CoverState> cover;
   In<Balls> candidates;
+  In<TriangleMesh> patches;
   Out<CoverCheck> check;
   VerifyCoverOptions options;
 
@@ -40,6 +41,9 @@ struct VerifyCover {
     d.input("candidates", &VerifyCover::candidates)
         .optional()
         .doc("the balls of the covering matrix, among which they were chosen; goes with cover");
+    d.input("patches", &VerifyCover::patches)
+        .optional()
+        .doc("triangles of the points; where there are any, they should be covered in place of the points");
     d.output("check", &VerifyCover::check)
         .doc("the samples in no ball, and the bound that the certificate proves");
     d.choice("on_uncovered", &VerifyCover::options, &VerifyCoverOptions::on_uncovered,
@@ -55,13 +59,14 @@ struct VerifyCover {
       throw InputError("only one of cover and candidates is connected",
                        "connect both to check a certificate, or none");
     }
+    const TriangleMesh triangles = patches ? *patches : TriangleMesh{};
     CoverCheck result;
     if (!cover) {
-      result = verify_cover(*balls, *points, options, monitor);
+      result = verify_cover(*balls, *points, options, monitor, {}, triangles);
     } else {
-      verify_uncovered(*cover, *candidates, *points, monitor);
-      result = verify_cover(*balls, *points, options, monitor, cover->uncovered.span());
-      result.certified_bound = verify_certificate(*cover, *candidates, *points, monitor);
+      verify_uncovered(*cover, *candidates, *points, monitor, triangles);
+      result = verify_cover(*balls, *points, options, monitor, cover->uncovered.span(), triangles);
+      result.certified_bound = verify_certificate(*cover, *candidates, *points, monitor, triangles);
     }
     check = std::move(result);
   }

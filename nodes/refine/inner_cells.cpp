@@ -97,9 +97,11 @@ InnerCells inner_cells(RefinedTriangulation& triangulation) {
       if (is_inner(delaunay, beside) == inner) {
         parts.join(cell->info().number, beside->info().number);
       } else if (inner) {
-        // Three samples: an inner cell has no far-away point.
+        // Three samples: an inner cell has no far-away point. Cells are oriented, so the three that follow
+        // an even k are counter-clockwise seen from outside, those that follow an odd one clockwise.
         const auto sample = [&](int j) { return cell->vertex((k + j) % 4)->info().number; };
-        result.boundary.push_back({{sample(1), sample(2), sample(3)}, cell, beside});
+        const int second = k % 2 == 0 ? 2 : 3;
+        result.boundary.push_back({{sample(1), sample(second), sample(5 - second)}, cell, beside});
       }
     }
   }

@@ -13,7 +13,7 @@ namespace ballflow::geometry {
 
 /// Its dual Voronoi edge crosses the surface an odd number of times.
 struct BoundaryFacet {
-  std::array<std::int32_t, 3> samples;
+  std::array<std::int32_t, 3> samples;  // counter-clockwise seen from the outer cell
   RefinedTriangulation::Cell inner, outer;
 };
 

@@ -310,6 +310,14 @@ Refined Refinery::result(const InnerCells& cells) {
   std::vector<Vec3> points;
   points.reserve(triangulation_.samples());
   for (const Vertex& vertex : triangulation_.vertices()) points.push_back(position(vertex));
+  std::vector<Triangle> triangles;
+  for (const BoundaryFacet& facet : cells.boundary) {
+    Triangle triangle = facet.samples;  // the handles of cells, and so the order, are those of no run
+    std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+    triangles.push_back(triangle);
+  }
+  std::sort(triangles.begin(), triangles.end());
+  result.surface = {points, std::move(triangles)};
   result.points.points = std::move(points);
   Refinement& report = result.report;
   report.refined = 1;
@@ -349,6 +357,31 @@ TriangleMesh boundary_of_solid(const TriangleMesh& mesh, const SurfaceChain& cha
   return {mesh.vertices, std::move(triangles)};
 }
 
+/// % of the box: the lowest floor of the first try.
+constexpr double first_lowest_floor = 0.0005;
+
+/// Steps 1 to 4 with one lowest floor.
+Refined refine_once(const TriangleMesh& boundary, const WindingNumber& winding, const PointSet& points,
+                    const std::optional<Betti>& wanted, const RefineOptions& options, Monitor& monitor) {
+  Refinery refinery(boundary, winding, options, monitor);
+  refinery.start(boundary, options.keep_points ? points : PointSet{}, options);
+  refinery.refine_balls();
+  InnerCells cells = refinery.refine_cells(wanted);
+  std::array<std::int64_t, 3> balls = refinery.betti_of_balls();
+  constexpr int most_separations = 4;
+  for (int i = 0; i < most_separations; ++i) {
+    const std::optional<Betti> aim = wanted ? wanted : cells.betti;
+    if (!aim || balls == *aim || refinery.full() || !refinery.separate_balls()) break;
+    refinery.refine_balls();
+    cells = refinery.refine_cells(wanted);
+    balls = refinery.betti_of_balls();
+  }
+  Refined result = refinery.result(cells);
+  if (wanted) result.report.wanted = *wanted;
+  result.report.balls = balls;
+  return result;
+}
+
 void check(const RefineOptions& options) {
   const auto require = [](bool right, const char* name, double value, const char* range) {
     if (!right) throw InputError(std::string(name) + " is " + std::to_string(value), range);
@@ -375,7 +408,7 @@ Refined refine(const TriangleMesh& mesh, const PointSet& points, const std::opti
     throw InputError("the mesh is damaged: " + broken, "repair the mesh, or read it again");
   }
   const auto as_it_is = [&] {
-    Refined result{points, {}};
+    Refined result{points, {points.points, {}}, {}};
     result.report.samples = static_cast<std::int64_t>(points.points.size());
     return result;
   };
@@ -393,23 +426,14 @@ Refined refine(const TriangleMesh& mesh, const PointSet& points, const std::opti
                      "close the mesh, or take the points as they are (sampling: vertices)");
   }
   const TriangleMesh boundary = boundary_of_solid(mesh, winding.chain(), monitor);
-  Refinery refinery(boundary, winding, options, monitor);
-  refinery.start(boundary, options.keep_points ? points : PointSet{}, options);
-  refinery.refine_balls();
-  InnerCells cells = refinery.refine_cells(wanted);
-  std::array<std::int64_t, 3> balls = refinery.betti_of_balls();
-  constexpr int most_separations = 4;
-  for (int i = 0; i < most_separations; ++i) {
-    const std::optional<Betti> aim = wanted ? wanted : cells.betti;
-    if (!aim || balls == *aim || refinery.full() || !refinery.separate_balls()) break;
-    refinery.refine_balls();
-    cells = refinery.refine_cells(wanted);
-    balls = refinery.betti_of_balls();
+  RefineOptions attempt = options;
+  attempt.lowest_floor = std::max(options.lowest_floor, first_lowest_floor);
+  Refined result = refine_once(boundary, winding, points, wanted, attempt, monitor);
+  if (!result.report.reached() && result.report.aim() != Refinement::unknown && result.report.complete == 1 &&
+      options.lowest_floor < attempt.lowest_floor) {
+    result = refine_once(boundary, winding, points, wanted, options, monitor);
   }
-  Refined result = refinery.result(cells);
-  if (wanted) result.report.wanted = *wanted;
   result.report.left_out = static_cast<std::int64_t>(mesh.triangles.size() - boundary.triangles.size());
-  result.report.balls = balls;
   monitor.step(1);
   return result;
 }

@@ -34,6 +34,9 @@ struct RefineOptions {
 
 struct Refined {
   PointSet points;
+  // What bounds the inner cells: vertices are the points, triangles oriented. Closed; a manifold where the
+  // report's `cells` are known, but for touching vertices else. Without triangles where nothing was refined.
+  TriangleMesh surface;
   Refinement report;
 };
 
@@ -54,7 +57,9 @@ struct Refined {
 ///
 /// The union of all inner balls contains T: the power diagram of all Delaunay balls is the Delaunay
 /// triangulation itself. So it has no holes inside however thin a wall is, as unions of polar balls have.
-/// There is no proof that 3 and 4 succeed; the report says whether they have.
+/// All of it is done with 0.0005 % as the lowest floor, and anew with lowest_floor where that did not
+/// succeed: samples far closer together than a shape needs cost balls, and bring other balls together. There
+/// is no proof that 3 and 4 succeed; the report says whether they have.
 ///
 /// - `wanted`: Betti numbers of the solid, or nothing where they are unknown (self-intersections); then those
 ///   of T are what the union is compared with

@@ -19,11 +19,12 @@ struct Refine {
   In<geometry::PointSet> points;
   In<geometry::TopologyTable> topology;
   Out<geometry::PointSet> samples;
+  Out<geometry::TriangleMesh> surface;
   Out<geometry::Refinement> report;
   RefineOptions options;
 
   static void declare(NodeDecl<Refine>& d) {
-    d.id("Refine", 1)
+    d.id("Refine", 2)
         .summary("Choose samples of a closed surface that are dense where its shape asks for it.");
     d.doc(
         "The vertices of a part say little about its shape: a cube has 8, and they make one ball of twice "
@@ -50,6 +51,10 @@ struct Refine {
         .optional()
         .doc("SolidTopology of the mesh; without it the inner cells say what topology the balls should have");
     d.output("points", &Refine::samples).doc("n samples on the surface, pairwise distinct");
+    d.output("surface", &Refine::surface)
+        .doc(
+            "the boundary of the inner Delaunay cells, a triangulation of the samples with the topology that "
+            "the report says; without triangles where nothing was refined");
     d.output("report", &Refine::report).doc("what was reached, and where it was not");
     d.choice("when", &Refine::options, &RefineOptions::when,
              {{RefineWhen::closed, "closed", "refine closed surfaces, return the points of others"},
@@ -75,7 +80,7 @@ struct Refine {
         .unit("% of the longest bounding-box edge")
         .at_least(1e-5)
         .at_most(10)
-        .doc("where the topology asks for it the floor sinks, to this");
+        .doc("where the topology asks for it the floor sinks, to 0.0005 % at first, to this if that fails");
     d.param("wall_fraction", &Refine::options, &RefineOptions::wall_fraction)
         .unit("1")
         .at_least(0.05)
@@ -106,6 +111,7 @@ struct Refine {
     if (const std::string words = geometry::what_is_missing(result.report); !words.empty())
       monitor.warn(words);
     samples = std::move(result.points);
+    surface = std::move(result.surface);
     report = std::move(result.report);
   }
 };

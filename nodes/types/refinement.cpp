@@ -27,12 +27,10 @@ std::string what_is_missing(const Refinement& report) {
         "over in the file if it bounds a cavity");
   }
   // Of a surface whose solid is unknown (it crosses itself, say) SolidTopology has said so.
-  const bool has_aim = report.wanted != Refinement::unknown || report.cells != Refinement::unknown;
-  if (has_aim && !report.reached()) {
-    const auto& aim = report.wanted != Refinement::unknown ? report.wanted : report.cells;
+  if (report.aim() != Refinement::unknown && !report.reached()) {
     words.append(words.empty() ? "" : "; ").append("the union of the inner balls has ");
     words.append(describe(report.balls));
-    words.append(", the solid ").append(describe(aim));
+    words.append(", the solid ").append(describe(report.aim()));
     words.append(": lower delta or floor");
     if (!report.limited.empty()) {
       const Vec3 p = report.limited[0];

@@ -29,8 +29,9 @@ struct Refinement {
   std::array<std::int64_t, 3> cells = unknown;   // of the inner cells; unknown where they bound no surface
   std::array<std::int64_t, 3> balls = unknown;   // of the union of the inner balls
 
-  /// Whether the union of the inner balls has the Betti numbers that it should have.
-  bool reached() const { return balls != unknown && (wanted != unknown ? balls == wanted : balls == cells); }
+  /// The Betti numbers that the union of the inner balls should have; unknown where nobody knows them.
+  const std::array<std::int64_t, 3>& aim() const { return wanted != unknown ? wanted : cells; }
+  bool reached() const { return balls != unknown && balls == aim(); }
 };
 
 /// What the user should know and do, in words; empty when there is nothing.

@@ -22,5 +22,6 @@ TypeLayers local_feature_size_layers();
 TypeLayers growth_layers();
 TypeLayers simplicial_complex_layers();
 TypeLayers medial_axis_layers();
+TypeLayers refinement_layers();
 
 }  // namespace ballflow::show

@@ -98,6 +98,30 @@ INSTANTIATE_TEST_SUITE_P(Generated, Solids,
                            return "model_" + letters;
                          });
 
+TEST(refine, the_boundary_of_the_inner_cells_is_a_closed_oriented_surface_of_the_samples) {
+  for (const char* shape : {"torus?n=600", "bracket?n=500", "doubleTorus?n=1500"}) {
+    const TriangleMesh mesh = generate(parse_shape(shape));
+    const Refined result = refined(mesh);
+    EXPECT_EQ(result.surface.vertices, result.points.points);
+    const MeshTopology topology = mesh_topology(result.surface), solid = mesh_topology(mesh);
+    EXPECT_TRUE(topology.closed && topology.manifold && topology.oriented) << shape;
+    EXPECT_EQ(topology.genus, solid.genus) << shape;
+    EXPECT_EQ(topology.components, solid.components) << shape;
+    // Outwards: the volume is positive, and near that of the solid.
+    const auto volume = [](const TriangleMesh& m) {
+      double six = 0;
+      for (const auto& [a, b, c] : m.triangles) {
+        const auto at = [&](std::int32_t v) { return m.vertices[static_cast<std::size_t>(v)]; };
+        six += dot(at(a), cross(at(b), at(c)));
+      }
+      return six / 6;
+    };
+    EXPECT_NEAR(volume(result.surface) / volume(mesh), 1, 0.03) << shape;
+  }
+  const PointSet points{{{0, 0, 0}, {1, 0, 0}}, {}};
+  EXPECT_TRUE(refine({}, points, std::nullopt, {}).surface.triangles.empty());
+}
+
 TEST(refine, a_cube_of_eight_vertices_has_the_volume_of_a_cube) {
   const TriangleMesh mesh = box({1, 1, 1});
   const Refined result = refined(mesh);

@@ -1,0 +1,62 @@
+#include "cover/cover_points.hpp"
+
+#include <ballflow/sdk.hpp>
+#include <utility>
+
+#include "types/artifact_types.hpp"
+
+namespace ballflow::nodes {
+namespace {
+
+using namespace geometry;
+
+struct CoverPointsNode {
+  struct Options {
+    Demand cover = Demand::samples;
+  };
+  In<PointSet> points;
+  In<TriangleMesh> surface;
+  Out<PointSet> covered;
+  Out<TriangleMesh> patches;
+  Options options;
+
+  static void declare(NodeDecl<CoverPointsNode>& d) {
+    d.id("CoverPoints", 1).summary("Say what the balls have to cover: the samples, or more of the surface.");
+    d.doc(
+        "What is covered need not be what was sampled. Where walls are thin a ball reaches few samples, and "
+        "balls that cover all samples leave holes between them, which TopologyRepair closes by returning "
+        "many "
+        "balls. The centres of the surface's triangles, and of its edges, are points that close them from "
+        "the "
+        "start; thick shapes need fewer balls without. Whole triangles (patches) are a surface and not "
+        "points: "
+        "a union that covers them contains the triangulation, which takes several times as many balls.");
+    d.cites("kornberger2010", "3.6.1, the samples");
+    d.input("points", &CoverPointsNode::points).doc("the samples");
+    d.input("surface", &CoverPointsNode::surface)
+        .optional()
+        .doc("a triangulation of them, from Refine; without triangles only samples can be covered");
+    d.output("points", &CoverPointsNode::covered).doc("the samples, then the centres");
+    d.output("patches", &CoverPointsNode::patches)
+        .doc("the triangles to be covered whole (cover = patches), or none");
+    d.choice("cover", &CoverPointsNode::options, &Options::cover,
+             {{Demand::samples, "samples", "the samples"},
+              {Demand::facets, "facets", "the samples and the centres of triangles"},
+              {Demand::edges, "edges", "the samples and the centres of triangles and edges"},
+              {Demand::patches, "patches", "whole triangles, each by one ball"}})
+        .doc("what has to be covered");
+    d.memory(std::uint64_t{1} << 20, 6);
+  }
+
+  void run(RunContext&) {
+    CoverPoints result = cover_points(*points, surface ? *surface : TriangleMesh{}, options.cover);
+    covered = std::move(result.points);
+    patches = std::move(result.patches);
+  }
+};
+
+}  // namespace
+
+const bf_node* cover_points_entry() { return node_entry<CoverPointsNode>(); }
+
+}  // namespace ballflow::nodes
