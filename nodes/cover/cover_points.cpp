@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,7 +46,38 @@ std::vector<Vec3> new_points(std::span<const Vec3> samples, const std::vector<Ve
 
 }  // namespace
 
+double thickness(const TriangleMesh& surface, const Balls& balls) {
+  std::vector<double> radius(surface.vertices.size(), 0);  // of the largest ball through each sample
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    for (const std::int32_t s : balls.samples_of(i)) {
+      if (at(s) < radius.size()) radius[at(s)] = std::max(radius[at(s)], balls.radii[i]);
+    }
+  }
+  std::vector<double> sum(radius.size(), 0);  // of the lengths of edges
+  std::vector<int> edges(radius.size(), 0);
+  for (const auto& [u, v] : edges_of(surface)) {
+    const double length = distance(surface.vertices[at(u)], surface.vertices[at(v)]);
+    for (const std::int32_t s : {u, v}) {
+      sum[at(s)] += length;
+      ++edges[at(s)];
+    }
+  }
+  std::vector<double> ratios;
+  for (std::size_t s = 0; s < radius.size(); ++s) {
+    if (sum[s] > 0) ratios.push_back(radius[s] * edges[s] / sum[s]);
+  }
+  if (ratios.empty()) return 0;
+  const auto median = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), median, ratios.end());
+  return *median;
+}
+
+Demand demand_for(double thickness) {
+  return thickness >= 1.5 ? Demand::samples : thickness >= 1 ? Demand::facets : Demand::edges;
+}
+
 CoverPoints cover_points(const PointSet& samples, const TriangleMesh& surface, Demand demand) {
+  if (demand == Demand::automatic) throw std::logic_error("the caller says what is to be covered");
   if (const std::string broken = broken_invariant(surface); !broken.empty()) {
     throw InputError("the surface is damaged: " + broken, "connect the surface that Refine made");
   }

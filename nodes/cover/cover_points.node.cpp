@@ -1,6 +1,7 @@
 #include "cover/cover_points.hpp"
 
 #include <ballflow/sdk.hpp>
+#include <string>
 #include <utility>
 
 #include "types/artifact_types.hpp"
@@ -12,10 +13,11 @@ using namespace geometry;
 
 struct CoverPointsNode {
   struct Options {
-    Demand cover = Demand::samples;
+    Demand cover = Demand::automatic;
   };
   In<PointSet> points;
   In<TriangleMesh> surface;
+  In<Balls> balls;
   Out<PointSet> covered;
   Out<TriangleMesh> patches;
   Options options;
@@ -36,11 +38,17 @@ struct CoverPointsNode {
     d.input("surface", &CoverPointsNode::surface)
         .optional()
         .doc("a triangulation of them, from Refine; without triangles only samples can be covered");
+    d.input("balls", &CoverPointsNode::balls)
+        .optional()
+        .doc("the inner balls of the samples, which say how thick the solid is (cover = auto)");
     d.output("points", &CoverPointsNode::covered).doc("the samples, then the centres");
     d.output("patches", &CoverPointsNode::patches)
         .doc("the triangles to be covered whole (cover = patches), or none");
     d.choice("cover", &CoverPointsNode::options, &Options::cover,
-             {{Demand::samples, "samples", "the samples"},
+             {{Demand::automatic, "auto",
+               "samples where the largest ball through half of them is at least 1.5 times as large as the "
+               "triangles there have long edges, facets from 1 on, edges where walls are still thinner"},
+              {Demand::samples, "samples", "the samples"},
               {Demand::facets, "facets", "the samples and the centres of triangles"},
               {Demand::edges, "edges", "the samples and the centres of triangles and edges"},
               {Demand::patches, "patches", "whole triangles, each by one ball"}})
@@ -48,8 +56,19 @@ struct CoverPointsNode {
     d.memory(std::uint64_t{1} << 20, 6);
   }
 
-  void run(RunContext&) {
-    CoverPoints result = cover_points(*points, surface ? *surface : TriangleMesh{}, options.cover);
+  void run(RunContext& context) {
+    ContextMonitor monitor(context);
+    const TriangleMesh triangles = surface ? *surface : TriangleMesh{};
+    Demand demand = options.cover;
+    if (demand == Demand::automatic) {
+      demand =
+          balls && !triangles.triangles.empty() ? demand_for(thickness(triangles, *balls)) : Demand::samples;
+      if (demand != Demand::samples) {
+        monitor.note(std::string("walls are thin: covering samples, facets") +
+                     (demand == Demand::edges ? " and edges" : ""));
+      }
+    }
+    CoverPoints result = cover_points(*points, triangles, demand);
     covered = std::move(result.points);
     patches = std::move(result.patches);
   }

@@ -5,6 +5,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <string>
 
@@ -157,6 +158,42 @@ TEST(cover_points, a_centre_that_is_a_sample_is_added_once) {
   const CoverPoints result = cover_points({p, {}}, {p, {{0, 1, 2}}}, Demand::edges);
   EXPECT_EQ(broken_invariant(result.points), "");
   EXPECT_EQ(result.points.points.size(), 4u + 1 + 2);
+}
+
+TEST(cover_points, thickness_is_that_of_a_plate_whose_balls_are_known) {
+  // A lattice of spacing 1 on a plane, two balls through every sample: four edges of length 1 and two
+  // diagonals at an inner one.
+  std::vector<Vec3> p;
+  std::vector<Triangle> triangles;
+  const int n = 41;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) p.push_back({1.0 * i, 1.0 * j, 0});
+  }
+  for (int i = 0; i + 1 < n; ++i) {
+    for (int j = 0; j + 1 < n; ++j) {
+      const std::int32_t a = n * i + j;
+      triangles.push_back({a, a + n, a + n + 1});
+      triangles.push_back({a, a + n + 1, a + 1});
+    }
+  }
+  std::vector<std::int64_t> offsets{0};
+  std::vector<std::int32_t> defining;
+  std::vector<double> radii;
+  std::vector<Vec3> centers;
+  for (std::int32_t s = 0; s < n * n; ++s) {
+    for (const double r : {0.5, 0.75}) {
+      centers.push_back({0, 0, r});
+      radii.push_back(r);
+      defining.push_back(s);
+      offsets.push_back(static_cast<std::int64_t>(defining.size()));
+    }
+  }
+  EXPECT_NEAR(thickness({p, triangles}, {centers, radii, offsets, defining}),
+              0.75 * 6 / (4 + 2 * std::sqrt(2.0)), 1e-12);
+  EXPECT_EQ(thickness({p, triangles}, {centers, radii, {}, {}}), 0);
+  EXPECT_EQ(demand_for(1.5), Demand::samples);
+  EXPECT_EQ(demand_for(1.49), Demand::facets);
+  EXPECT_EQ(demand_for(0.99), Demand::edges);
 }
 
 TEST(cover_points, a_surface_of_other_points_is_refused) {
