@@ -35,8 +35,16 @@ std::string cover(const Json& s) {
   if (s.contains("remaining") && s.at("remaining") == 0) {
     std::string text = counted(s, "chosen", "ball") + " chosen";
     if (s.at("lower_bound") == s.at("chosen")) return text + ", the fewest possible";
-    if (s.at("lower_bound").is_number()) text += ", at least " + number(s, "lower_bound") + " needed";
+    // The bound is one for covering: it knows nothing of balls that the topology asked for.
+    const std::int64_t returned = s.value("returned", std::int64_t{0});
+    if (returned > 0) text += " (" + grouped(returned) + " of them for the topology)";
+    if (!s.at("lower_bound").is_number()) return text;
+    text += ", at least " + number(s, "lower_bound") + (returned > 0 ? " needed to cover" : " needed");
     if (s.at("gap").is_number()) text += ", gap " + percent(s.at("gap").get<double>());
+    if (s.at("gap").is_number() && returned > 0) {
+      const double bound = s.at("lower_bound").get<double>(), chosen = s.at("chosen").get<double>();
+      text += ", " + percent((chosen - static_cast<double>(returned) - bound) / bound) + " without those";
+    }
     return text;
   }
   std::string text = number(s, "rows") + " x " + number(s, "cols") + ", " + number(s, "nnz") + " entries";

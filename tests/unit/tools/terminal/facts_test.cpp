@@ -32,6 +32,16 @@ TEST(key_facts, are_the_balls_and_the_topology) {
   EXPECT_EQ(facts[1], "topology kept: 1 component");
 }
 
+TEST(key_facts, tell_returned_balls_from_those_that_cover) {
+  const std::array<std::string, 3> repaired = {
+      "cover", "CoverState",
+      R"({"remaining": 0, "chosen": 300, "returned": 60, "lower_bound": 200, "gap": 0.5})"};
+  EXPECT_EQ(
+      key_facts(outputs({repaired}), Json::object())[0],
+      "300 balls chosen (60 of them for the topology), at least 200 needed to cover, gap 50.00 %, 20.00 % "
+      "without those");
+}
+
 TEST(key_facts, name_the_balls_that_are_the_result) {
   const std::array<std::string, 3> a = {"a", "Balls", R"({"count": 3})"},
                                    sum = {"sum", "Balls", R"({"count": 9})"};
