@@ -38,18 +38,34 @@ class SurfaceTree {
 
   /// The normal of a triangle, of length 1; 0 for one without area. It points to where the triangle is seen
   /// counter-clockwise.
-  Vec3 normal(std::int32_t triangle) const { return triangles_[static_cast<std::size_t>(triangle)].normal; }
+  Vec3 normal(std::int32_t triangle) const {
+    return items_[place_[static_cast<std::size_t>(triangle)]].normal;
+  }
 
  private:
   struct Item {
     std::array<Vec3, 3> corners;
     Vec3 normal;
+    std::int32_t triangle;
   };
+  /// What lies between two parallel planes.
+  struct Slab {
+    Vec3 normal;  // of length 1, or 0 for all space
+    double low = 0, high = 0;
+  };
+  void make_slabs();
+  double bound(std::size_t node, Vec3 p, double slack) const;
+
   template <class Visit>
   void along(Vec3 origin, Vec3 direction, double from, double to, const Visit& visit) const;
 
-  std::vector<Item> triangles_;
   BoxTree tree_;
+  std::vector<Item> items_;  // in the order of the tree: those of a leaf are side by side in the memory
+  std::vector<std::size_t> place_;  // of each triangle in items_
+  // Of every node. A ball that touches the surface is nearly as far from a wide patch of it; boxes of a
+  // slanted patch reach into the ball, its slab does not.
+  std::vector<Slab> slabs_;
+  double reach_ = 0;  // the largest coordinate
 };
 
 }  // namespace ballflow::geometry
