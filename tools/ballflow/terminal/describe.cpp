@@ -106,7 +106,10 @@ std::string minkowski(const Json& s) {
 
 std::string refinement(const Json& s) {
   if (!s.at("refined").get<bool>()) return "points as they came";
-  std::string text = s.at("reached").get<bool>() ? "topology reached" : "topology NOT reached";
+  const bool known = !s.at("wanted").is_null() || !s.at("cells").is_null();
+  std::string text = s.at("reached").get<bool>() ? "topology reached"
+                     : known                     ? "topology NOT reached"
+                                                 : "topology of the solid not known";
   text += " in " + counted(s, "rounds", "round");
   if (s.at("limited") != 0) text += ", " + number(s, "limited") + " places too thin";
   if (s.at("uncovered") != 0) text += ", " + counted(s, "uncovered", "sample") + " without an inner ball";
@@ -162,9 +165,7 @@ std::string describe(const OutputEntry& output) {
        }},
       {"CoverState", cover},
       {"CoverCheck",
-       [](const Json& s) {
-         return number(s, "covered") + " of " + number(s, "samples") + " samples covered";
-       }},
+       [](const Json& s) { return number(s, "covered") + " of " + number(s, "samples") + " covered"; }},
       {"Comparison", comparison},
       {"Growth", growth},
       {"Bisection",

@@ -75,7 +75,7 @@ class Facts {
     if (check == nullptr) return;
     const Json s = summary(*check);
     if (s.contains("covered") && s.contains("samples") && s.at("covered") != s.at("samples"))
-      facts_.push_back("NOT every sample is covered: " + describe(*check));
+      facts_.push_back("NOT everything is covered: " + describe(*check));
   }
 
   void others() {

@@ -75,7 +75,7 @@ TEST(key_facts, say_when_samples_are_left_uncovered) {
   const auto facts = key_facts(
       outputs({{"check", "CoverCheck", R"({"covered": 48483, "samples": 48485})"}, cover}), Json::object());
   ASSERT_EQ(facts.size(), 2u);
-  EXPECT_EQ(facts[1], "NOT every sample is covered: 48 483 of 48 485 samples covered");
+  EXPECT_EQ(facts[1], "NOT everything is covered: 48 483 of 48 485 covered");
   EXPECT_EQ(
       key_facts(outputs({{"check", "CoverCheck", R"({"covered": 5, "samples": 5})"}, cover}), Json::object())
           .size(),
