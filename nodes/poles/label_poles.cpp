@@ -88,7 +88,7 @@ PoleSet select_kept(const PoleSet& poles, const std::vector<std::uint8_t>& kept)
   if (std::count(kept.begin(), kept.end(), 0) == 0) return poles;
   std::vector<Vec3> centers;
   std::vector<double> radii;
-  std::vector<std::uint8_t> labels, unbounded;
+  std::vector<std::uint8_t> labels, unbounded, uncertain;
   std::vector<std::int64_t> offsets{0};
   std::vector<std::int32_t> samples, number(poles.size(), -1);
   for (std::size_t i = 0; i < poles.size(); ++i) {
@@ -98,6 +98,7 @@ PoleSet select_kept(const PoleSet& poles, const std::vector<std::uint8_t>& kept)
     radii.push_back(poles.radii[i]);
     labels.push_back(poles.labels[i]);
     unbounded.push_back(poles.unbounded[i]);
+    if (!poles.uncertain.empty()) uncertain.push_back(poles.uncertain[i]);
     samples.insert(samples.end(), poles.defining_samples.begin() + poles.defining_offsets[i],
                    poles.defining_samples.begin() + poles.defining_offsets[i + 1]);
     offsets.push_back(static_cast<std::int64_t>(samples.size()));
@@ -106,8 +107,8 @@ PoleSet select_kept(const PoleSet& poles, const std::vector<std::uint8_t>& kept)
   for (auto& own : sample_poles) {
     for (std::int32_t& pole : own) pole = pole < 0 ? -1 : number[at(pole)];
   }
-  return {std::move(centers), std::move(radii),     std::move(labels),      std::move(offsets),
-          std::move(samples), std::move(unbounded), std::move(sample_poles)};
+  return {std::move(centers), std::move(radii),     std::move(labels),       std::move(offsets),
+          std::move(samples), std::move(unbounded), std::move(sample_poles), std::move(uncertain)};
 }
 
 LabelledPoles label_by_angle(const PoleSet& poles, const LabelPolesOptions& options, Monitor& monitor) {
@@ -141,6 +142,7 @@ LabelledPoles label_by_angle(const PoleSet& poles, const LabelPolesOptions& opti
         "against their label is at least half as strong as that for it");
   }
   result.poles.labels = std::move(found.labels);
+  result.poles.uncertain = std::move(found.uncertain);
   result.poles = select_kept(result.poles, kept);
   result.inner = select_label(result.poles, inner);
   result.outer = select_label(result.poles, outer, options.outer);

@@ -13,7 +13,7 @@ struct LocalFeatureSize {
   Out<geometry::LocalFeatureSize> size;
 
   static void declare(NodeDecl<LocalFeatureSize>& d) {
-    d.id("LocalFeatureSize", 1).summary("Estimate at every sample how far the medial axis is.");
+    d.id("LocalFeatureSize", 2).summary("Estimate at every sample how far the medial axis is.");
     d.doc(
         "D^ of every sample: the distance to the nearest pole of all samples, inner or outer. For an "
         "r-sample "
@@ -25,7 +25,8 @@ struct LocalFeatureSize {
     d.memory(1 << 20, 2.0);
     d.input("points", &LocalFeatureSize::points).doc("the sample, n points");
     d.input("poles", &LocalFeatureSize::poles).doc("its poles, labelled or not");
-    d.output("size", &LocalFeatureSize::size).doc("D^ of the n samples, same order");
+    d.output("size", &LocalFeatureSize::size)
+        .doc("D^ of the n samples, same order, and the distance to their third neighbours");
   }
   void run(RunContext& context) {
     ContextMonitor monitor(context);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "search/box_tree.hpp"
+#include "search/neighbor_distances.hpp"
 
 namespace ballflow::geometry {
 
@@ -52,8 +53,9 @@ LocalFeatureSize local_feature_size(const PointSet& sample, const PoleSet& poles
     throw InputError("a pole lies at sample " + std::to_string(s),
                      "scale the model up: its features are beyond the resolution of doubles");
   }
+  std::vector<double> third = neighbor_distances(sample.points, 3, monitor);
   monitor.step(1);
-  return {sample.points, std::move(distances)};
+  return {sample.points, std::move(distances), std::move(third)};
 }
 
 }  // namespace ballflow::geometry

@@ -22,6 +22,7 @@
 #include "types/pole_set.hpp"
 #include "types/refinement.hpp"
 #include "types/simplicial_complex.hpp"
+#include "types/surface_report.hpp"
 #include "types/topology_check.hpp"
 #include "types/topology_table.hpp"
 #include "types/triangle_mesh.hpp"

@@ -20,6 +20,9 @@ struct LocalFeatureSize {
 
   Array<Vec3> points;            // n x 3, the sample, model units
   Array<double> pole_distances;  // n, D^, model units, > 0
+  // n, model units, > 0: the distance to the third nearest other sample, a length of the spacing; infinite
+  // for fewer than four samples.
+  Array<double> third_neighbors;
 };
 
 /// Empty when the invariants above hold, else what is wrong and where.

@@ -8,7 +8,7 @@ namespace ballflow {
 
 void TypeOf<geometry::LocalFeatureSize>::declare(TypeDecl<geometry::LocalFeatureSize>& d) {
   using T = geometry::LocalFeatureSize;
-  d.id("LocalFeatureSize", 1)
+  d.id("LocalFeatureSize", 2)
       .doc("D^, the distance of every sample to the nearest pole: an estimate of the local feature size.");
   d.array("points", &T::points).length("n").doc("the sample, model units");
   d.array("pole_distances", &T::pole_distances)
@@ -16,6 +16,9 @@ void TypeOf<geometry::LocalFeatureSize>::declare(TypeDecl<geometry::LocalFeature
       .doc(
           "D^, model units. For r-samples, r <= 0.08: distance to the discrete medial axis in "
           "[0.817 D^, D^], local feature size at most 1.2802 D^");
+  d.array("third_neighbors", &T::third_neighbors)
+      .length("n")
+      .doc("distance to the third nearest other sample, model units");
   d.summary("count", "number of samples");
   d.summary("min_pole_distance", "smallest D^; null without samples");
   d.summary("max_pole_distance", "largest D^");

@@ -29,6 +29,8 @@ std::string broken_lengths(const PoleSet& poles) {
   if (poles.centers.size() != n) return wrong("centers", poles.centers.size());
   if (poles.labels.size() != n) return wrong("labels", poles.labels.size());
   if (poles.unbounded.size() != n) return wrong("unbounded", poles.unbounded.size());
+  if (!poles.uncertain.empty() && poles.uncertain.size() != n)
+    return wrong("uncertain", poles.uncertain.size());
   if (poles.defining_offsets.size() != n + 1) return wrong("defining_offsets", poles.defining_offsets.size());
   if (poles.defining_offsets[0] != 0)
     return "defining_offsets[0] is " + std::to_string(poles.defining_offsets[0]);

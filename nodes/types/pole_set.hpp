@@ -37,6 +37,10 @@ struct PoleSet {
   // is none.
   Array<std::array<std::int32_t, 3>> sample_poles;  // n x 3
 
+  // p, 1 where the evidence against the label is at least half as strong as that for it; empty where labels
+  // are decided otherwise (only the method angle of LabelPoles knows).
+  Array<std::uint8_t> uncertain;
+
   std::size_t size() const { return radii.size(); }
 };
 

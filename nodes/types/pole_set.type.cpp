@@ -25,6 +25,10 @@ void TypeOf<geometry::PoleSet>::declare(TypeDecl<geometry::PoleSet>& d) {
       .doc(
           "poles of each sample, -1 for none: the farthest vertex of its cell, the farthest behind it, and, "
           "where the labels of both are the same, the farthest with the other label");
+  d.array("uncertain", &T::uncertain)
+      .length("p")
+      .optional()
+      .doc("1 where the evidence for the label is weak; only of labels by angle");
   d.summary("samples", "number of samples").summary("poles", "number of distinct poles");
   d.summary("candidates", "other vertices; LabelPoles chooses third poles among them");
   d.summary("inner", "entries labelled inner").summary("outer", "entries labelled outer");

@@ -19,6 +19,7 @@ struct MassProperties;
 struct MinkowskiReport;
 struct Refinement;
 struct SimplicialComplex;
+struct SurfaceReport;
 struct TopologyCheck;
 struct TopologyTable;
 struct MedialAxis;
@@ -94,6 +95,11 @@ struct TypeOf<geometry::Refinement> {
 template <>
 struct TypeOf<geometry::SimplicialComplex> {
   static void declare(TypeDecl<geometry::SimplicialComplex>& d);
+};
+
+template <>
+struct TypeOf<geometry::SurfaceReport> {
+  static void declare(TypeDecl<geometry::SurfaceReport>& d);
 };
 
 template <>

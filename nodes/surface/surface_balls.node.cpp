@@ -1,0 +1,73 @@
+#include "surface/surface_balls.hpp"
+
+#include <ballflow/sdk.hpp>
+#include <string>
+#include <utility>
+
+#include "types/artifact_types.hpp"
+
+namespace ballflow::nodes {
+namespace {
+
+using geometry::SurfaceBallsOptions;
+
+struct SurfaceBalls {
+  In<geometry::LocalFeatureSize> size;
+  Out<geometry::Balls> balls, shrunk;
+  SurfaceBallsOptions options;
+
+  static void declare(NodeDecl<SurfaceBalls>& d) {
+    d.id("SurfaceBalls", 1).summary("Balls around samples, as large as the local feature size allows.");
+    d.doc(
+        "Ball i has its centre at sample i and the radius rho D^, where D^ is the distance to the nearest "
+        "pole, but at "
+        "least floor times the distance to the third neighbour: where the spacing is as large as the feature "
+        "size, "
+        "balls of radius rho D^ do not meet. Pruning covers the samples by shrunken copies (output shrunk) "
+        "and keeps "
+        "the balls themselves (output balls). Larger copies keep fewer balls. The node says on which ground "
+        "the union "
+        "of the kept balls has the topology of the surface: proven for very small copies of dense samples, "
+        "supported "
+        "by what the thesis reports, or experience (heuristic), as when balls were raised to the floor.");
+    d.avoid_when("the inside of a solid is wanted: these balls follow the surface.");
+    d.cites("kornberger2010", "4.5, 4.7 and 4.9.3; Theorem 4.14").cites("aichholzer2009", "surface balls");
+    d.input("size", &SurfaceBalls::size).doc("D^ of n samples and the distances to their third neighbours");
+    d.output("balls", &SurfaceBalls::balls).doc("n balls, each defined by its sample");
+    d.output("shrunk", &SurfaceBalls::shrunk).doc("n shrunken copies, which have to cover the samples");
+    d.param("radius", &SurfaceBalls::options, &SurfaceBallsOptions::radius)
+        .unit("times the distance to the nearest pole")
+        .at_least(0)
+        .at_most(2)
+        .doc("rho; 0 chooses .56 for shrink up to .3, .8 from .6 on, and between them in proportion");
+    d.param("shrink", &SurfaceBalls::options, &SurfaceBallsOptions::shrink)
+        .unit("times the distance to the nearest pole")
+        .at_least(0)
+        .at_most(2)
+        .doc("rho_bar, at most radius: the larger, the fewer balls are kept; 0 keeps all");
+    d.param("floor", &SurfaceBalls::options, &SurfaceBallsOptions::floor)
+        .unit("times the distance to the third neighbour")
+        .at_least(0)
+        .at_most(10)
+        .doc("no ball is smaller; 1.5 for noise as large as the spacing, larger ones bridge gaps");
+    d.param("smallest", &SurfaceBalls::options, &SurfaceBallsOptions::smallest)
+        .unit("model units")
+        .at_least(0)
+        .doc("no ball is smaller");
+    d.memory(1 << 20, 2.0);
+  }
+  void run(RunContext& context) {
+    ContextMonitor monitor(context);
+    geometry::SurfaceBalls result = geometry::surface_balls(*size, options, monitor);
+    context.info("rho " + std::to_string(result.radius) + ", regime: " + geometry::name(result.regime) +
+                 "; " + std::to_string(result.raised) + " balls raised to the floor");
+    balls = std::move(result.balls);
+    shrunk = std::move(result.shrunk);
+  }
+};
+
+}  // namespace
+
+const bf_node* surface_balls_entry() { return node_entry<SurfaceBalls>(); }
+
+}  // namespace ballflow::nodes
