@@ -21,7 +21,7 @@ struct LabelPoles {
   LabelPolesOptions options;
 
   static void declare(NodeDecl<LabelPoles>& d) {
-    d.id("LabelPoles", 2);
+    d.id("LabelPoles", 3);
     d.summary("Tell inner from outer poles: the discrete medial axis transform of a solid.");
     d.doc(
         "A pole is inner when the winding number of the mesh around it exceeds 1/2. For closed meshes it is "

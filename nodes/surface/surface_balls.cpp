@@ -49,6 +49,21 @@ SurfaceRegime regime_of(double radius, double shrink, std::int64_t raised) {
   return SurfaceRegime::heuristic;
 }
 
+/// Where the spacing is as large as the features nothing tells noise, gaps and handles apart.
+void warn_of_coarse_samples(const LocalFeatureSize& size, Monitor& monitor) {
+  constexpr double coarse = 0.8;
+  std::size_t beyond = 0;
+  for (std::size_t i = 0; i < size.points.size(); ++i) {
+    if (size.third_neighbors[i] > coarse * size.pole_distances[i]) ++beyond;
+  }
+  if (2 * beyond > size.points.size()) {
+    monitor.warn("at " + std::to_string(beyond) + " of " + std::to_string(size.points.size()) +
+                 " samples the third neighbour is about as far as the medial axis, or farther: the cloud is "
+                 "too coarse "
+                 "or too noisy for its features, so gaps may close and handles may come or go");
+  }
+}
+
 }  // namespace
 
 const char* name(SurfaceRegime regime) {
@@ -83,6 +98,7 @@ SurfaceBalls surface_balls(const LocalFeatureSize& size, const SurfaceBallsOptio
     offsets[i + 1] = static_cast<std::int64_t>(i + 1);
     defining[i] = static_cast<std::int32_t>(i);
   }
+  warn_of_coarse_samples(size, monitor);
   result.regime = regime_of(result.radius, options.shrink, result.raised);
   result.balls = {size.points, std::move(radii), std::move(offsets), std::move(defining)};
   result.shrunk = {size.points, std::move(shrunk), result.balls.defining_offsets,

@@ -43,6 +43,8 @@ struct SurfaceBalls {
 /// these values the bound here is linear. Raised balls are outside of what it says, so the regime is then
 /// heuristic.
 ///
+/// Warns where at more than half of the samples d3 is above 0.8 D^.
+///
 /// Throws InputError for a `shrink` above `radius` and options out of range.
 SurfaceBalls surface_balls(const LocalFeatureSize& size, const SurfaceBallsOptions& options,
                            Monitor& monitor = no_monitor());

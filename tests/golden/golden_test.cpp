@@ -56,6 +56,7 @@ const std::vector<Case>& cases() {
        of_vertices({{"input", "shape:doubleTorus?n=4000"}, {"epsilon", "10"}, {"mode", "pole_bound"}}),
        kNoTopology},
       {"torus_feature_size", "local_feature_size", {{"input", "shape:torus?n=6000"}}, kNoTopology},
+      {"double_torus_surface", "reconstruct", {{"input", "shape:doubleTorus?n=4000"}}, kNoTopology},
       {"torus_outside", "outer_medial_axis", of_vertices({{"input", "shape:torus?n=6000"}}), kNoTopology},
       {"double_torus_150_balls", "k_balls",
        of_vertices({{"input", "shape:doubleTorus?n=4000"}, {"k", "150"}}), kNoTopology},

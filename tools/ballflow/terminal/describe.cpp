@@ -116,6 +116,16 @@ std::string refinement(const Json& s) {
   return text;
 }
 
+std::string surface(const Json& s) {
+  std::string text = counted(s, "components", "component") + ", genus " + number(s, "genus");
+  if (s.at("filled") != 0)
+    text += ", " + percent(s.at("filled_area").get<double>()) + " of the area closes holes";
+  if (s.at("overruled") != 0)
+    text += ", " + percent(s.at("overruled").get<double>()) + " of the poles overruled";
+  if (s.at("specks") != 0) text += ", " + counted(s, "specks", "speck") + " left out";
+  return text;
+}
+
 std::string measure(const Json& s) {
   std::string text = "volume " + rounded(s, "volume") + ", area " + rounded(s, "area");
   if (s.contains("volume_error")) {
@@ -196,6 +206,7 @@ std::string describe(const OutputEntry& output) {
        }},
       {"MassProperties", measure},
       {"Refinement", refinement},
+      {"SurfaceReport", surface},
       {"SimplicialComplex", complex},
       {"MedialAxis", axis},
       {"TopologyTable", [](const Json& s) { return s.at("words").get<std::string>(); }},

@@ -79,6 +79,8 @@ class Facts {
   }
 
   void others() {
+    if (const OutputEntry* const surface = of_type("SurfaceReport"))
+      facts_.push_back("surface: " + describe(*surface));
     for (const char* type : {"Comparison", "MinkowskiReport", "Bisection"}) {
       if (const OutputEntry* const output = of_type(type)) facts_.push_back(describe(*output));
     }

@@ -106,9 +106,11 @@ TEST(local_feature_size, refuses_poles_of_another_sample) {
 }
 
 TEST(local_feature_size, reports_broken_invariants) {
-  ASSERT_EQ(broken_invariant(LocalFeatureSize{{{0, 0, 0}}, {1}}), "");
-  EXPECT_NE(broken_invariant(LocalFeatureSize{{{0, 0, 0}}, {0}}).find("point 0"), std::string::npos);
-  EXPECT_NE(broken_invariant(LocalFeatureSize{{{0, 0, 0}}, {1, 2}}), "");
+  ASSERT_EQ(broken_invariant(LocalFeatureSize{{{0, 0, 0}}, {1}, {1}}), "");
+  EXPECT_NE(broken_invariant(LocalFeatureSize{{{0, 0, 0}}, {0}, {1}}).find("point 0"), std::string::npos);
+  EXPECT_NE(broken_invariant(LocalFeatureSize{{{0, 0, 0}}, {1, 2}, {1}}), "");
+  EXPECT_NE(broken_invariant(LocalFeatureSize{{{0, 0, 0}}, {1}, {}}), "");
+  EXPECT_NE(broken_invariant(LocalFeatureSize{{{0, 0, 0}}, {1}, {0}}).find("third"), std::string::npos);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <map>
 #include <random>
@@ -68,7 +69,8 @@ TEST(minimum_cut, is_the_least_of_all_cuts_and_the_smallest_of_these) {
       const auto in = [&](std::int32_t i) { return (side >> i & 1) != 0; };
       std::int64_t cost = 0;
       for (std::int32_t i = 0; i < graph.nodes; ++i) {
-        cost += in(i) ? graph.to_sink[static_cast<std::size_t>(i)] : graph.from_source[static_cast<std::size_t>(i)];
+        cost += in(i) ? graph.to_sink[static_cast<std::size_t>(i)]
+                      : graph.from_source[static_cast<std::size_t>(i)];
       }
       for (const auto& [a, b, capacity] : graph.edges) cost += in(a) != in(b) ? capacity : 0;
       if (least < 0 || cost < least || (cost == least && std::popcount(side) < std::popcount(best))) {
@@ -130,7 +132,8 @@ TEST(cell_boundary, of_any_cells_is_a_closed_oriented_manifold_of_their_volume) 
       centers.push_back(lattice ? Vec3{double(i % 4), double(i / 4 % 4), double(i / 16)}
                                 : Vec3{unit(random), unit(random), unit(random)});
     }
-    const PowerDiagram diagram = power_diagram({centers, std::vector<double>(60, 0.1), {}, {}}, {}, no_monitor());
+    const PowerDiagram diagram =
+        power_diagram({centers, std::vector<double>(60, 0.1), {}, {}}, {}, no_monitor());
     std::vector<std::uint8_t> inside(diagram.size(), 0);
     double cells = 0;
     for (std::size_t c = 0; c < diagram.size(); ++c) {
@@ -227,7 +230,8 @@ TEST(surface_mesh, does_not_depend_on_threads_or_the_order_of_samples) {
       std::set<std::array<Vec3, 3>> result;
       for (const Triangle& t : surface.mesh.triangles) {
         std::array<Vec3, 3> corners;
-        for (std::size_t k = 0; k < 3; ++k) corners[k] = surface.mesh.vertices[static_cast<std::size_t>(t[k])];
+        for (std::size_t k = 0; k < 3; ++k)
+          corners[k] = surface.mesh.vertices[static_cast<std::size_t>(t[k])];
         std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
         result.insert(corners);
       }
@@ -269,12 +273,13 @@ TEST(surface_mesh, real_clouds_have_their_genus_and_parts_with_edges_are_refused
   const std::string folder = test::data_file("models/three_holes.off.gz");
   if (folder.empty()) GTEST_SKIP() << "no test data";
   const auto surface = [](const char* file) {
-    const PointSet points{read_mesh(test::data_file(std::string("models/") + file)).mesh.vertices, {}};
+    const PointSet points{read_mesh_file(test::data_file(std::string("models/") + file)).points.points, {}};
     const Cloud cloud = cloud_of(points);
     return surface_mesh(cloud.diagram, cloud.poles, cloud.points, {});
   };
-  for (const auto& [file, genus] :
-       {std::pair("three_holes.off.gz", 3), {"kitten_points.xyz.gz", 1}, {"powercrust_knot_points.pts.gz", 1}}) {
+  for (const auto& [file, genus] : {std::pair("three_holes.off.gz", 3),
+                                    {"kitten_points.xyz.gz", 1},
+                                    {"powercrust_knot_points.pts.gz", 1}}) {
     const SurfaceMesh found = surface(file);
     expect_closed_manifold(found.mesh);
     EXPECT_EQ(found.report.genus, genus) << file;

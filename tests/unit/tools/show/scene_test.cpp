@@ -80,6 +80,7 @@ TEST(scene, colours_samples_by_the_local_feature_size) {
   geometry::LocalFeatureSize size;
   size.points = std::vector<Vec3>{{0, 0, 0}, {9, 0, 0}};
   size.pole_distances = std::vector<double>{1, 2};
+  size.third_neighbors = std::vector<double>{9, 9};
   const auto layers = shown(size);
   ASSERT_EQ(names(layers), (Names{"local feature size"}));
   EXPECT_EQ(layers[0].find(layers[0].colour_by)->values, (std::vector<double>{1, 2}));
