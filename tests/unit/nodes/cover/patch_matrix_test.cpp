@@ -19,13 +19,13 @@
 namespace ballflow::geometry {
 namespace {
 
-struct Scene {
+struct Patched {
   Balls balls;
   TriangleMesh mesh;
 };
 
 /// Balls around a sphere's triangles, the first of them large enough for one each.
-Scene scene(std::uint32_t seed, std::size_t extra) {
+Patched patched(std::uint32_t seed, std::size_t extra) {
   std::mt19937 random(seed);
   const TriangleMesh mesh = test::sphere(2).mesh();
   std::vector<Vec3> centers;
@@ -57,7 +57,7 @@ bool holds_whole(Vec3 center, double radius, const TriangleMesh& mesh, const Tri
 }
 
 TEST(patch_matrix, equals_the_definition_tried_pair_by_pair) {
-  const Scene s = scene(1, 60);
+  const Patched s = patched(1, 60);
   const CoverMatrix matrix = patch_matrix(s.balls, s.mesh);
   EXPECT_EQ(broken_invariant(matrix.cover), "");
   EXPECT_TRUE(matrix.cover.uncovered.empty());
@@ -73,7 +73,7 @@ TEST(patch_matrix, equals_the_definition_tried_pair_by_pair) {
 }
 
 TEST(patch_matrix, its_cover_and_bound_are_confirmed_from_geometry) {
-  const Scene s = scene(2, 200);
+  const Patched s = patched(2, 200);
   const PointSet points{s.mesh.vertices, {}};
   const CoverState cover = greedy(lagrangian_bound(patch_matrix(s.balls, s.mesh).cover));
   const Balls kept = select(s.balls, cover.chosen.span());
@@ -107,7 +107,7 @@ TEST(patch_matrix, its_cover_and_bound_are_confirmed_from_geometry) {
 }
 
 TEST(patch_matrix, a_triangle_in_no_ball_is_told_listed_and_no_error_of_the_cover) {
-  Scene s = scene(3, 0);
+  Patched s = patched(3, 0);
   std::vector<Vec3> centers(s.balls.centers.begin() + 1, s.balls.centers.end());
   std::vector<double> radii(s.balls.radii.begin() + 1, s.balls.radii.end());
   const Balls balls{centers, radii, {}, {}};
@@ -127,7 +127,7 @@ TEST(patch_matrix, a_triangle_in_no_ball_is_told_listed_and_no_error_of_the_cove
 }
 
 TEST(patch_matrix, does_not_depend_on_the_number_of_threads) {
-  const Scene s = scene(4, 300);
+  const Patched s = patched(4, 300);
   const auto with = [&](int threads) {
     return tbb::task_arena(threads).execute([&] { return patch_matrix(s.balls, s.mesh).cover; });
   };

@@ -6,7 +6,7 @@
 namespace ballflow::show {
 namespace {
 
-std::vector<Layer> layers(const Artifact& artifact) {
+std::vector<Layer> layers_of_refinement(const Artifact& artifact) {
   const auto report = typed<geometry::Refinement>(artifact);
   Layer places;
   places.name = "thin places";
@@ -18,6 +18,6 @@ std::vector<Layer> layers(const Artifact& artifact) {
 
 }  // namespace
 
-TypeLayers refinement_layers() { return {"Refinement", layers}; }
+TypeLayers refinement_layers() { return {"Refinement", layers_of_refinement}; }
 
 }  // namespace ballflow::show
