@@ -1,7 +1,5 @@
 #include "measure/union_measure.hpp"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,14 +8,12 @@
 #include <vector>
 
 #include "base/arctangent.hpp"
-#include "base/lists.hpp"
 #include "power/power_diagram.hpp"
+#include "power/union_arcs.hpp"
 #include "power/union_vertices.hpp"
 
 namespace ballflow::geometry {
 namespace {
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
@@ -109,11 +105,6 @@ class Measure {
   }
 
  private:
-  struct Corner {
-    Vec3 point;
-    bool exposed = false;
-  };
-
   Vec3 center(std::int32_t ball) const { return complex_.centers[at(ball)]; }
   double weight(std::int32_t ball) const { return complex_.weights[at(ball)]; }
 
@@ -133,14 +124,13 @@ class Measure {
   /// angle is that between their normals.
   void find_corners(const PowerDiagram* diagram) {
     PartMonitor part(monitor_, 0, 0.4);
-    const std::vector<ExposedSide> sides =
-        diagram != nullptr ? exposed_sides(complex_, *diagram, part) : exposed_sides(complex_, part);
-    corners_.resize(complex_.triangles.size());
+    sides_ = diagram != nullptr ? exposed_sides(complex_, *diagram, part) : exposed_sides(complex_, part);
+    corners_.reserve(sides_.size());
     Lookout look(monitor_);
-    for (const ExposedSide& side : sides) {
+    for (const ExposedSide& side : sides_) {
       look(1000);
       const Vec3 w = boundary_vertex(complex_, side);
-      corners_[at(side.triangle)][side.side > 0 ? 1 : 0] = {w, true};
+      corners_.push_back(w);
       const auto& t = complex_.triangles[at(side.triangle)];
       for (std::size_t k = 0; k < 3; ++k) {
         const Vec3 n = unit_or_zero(w - center(t[k]));
@@ -157,47 +147,17 @@ class Measure {
   }
 
   void find_arcs() {
-    // The triangles at each edge, by the index of the edge; apex and index of the triangle.
-    Lists<Wing> wings = lists_of<Wing>(complex_.edges.size(), [&](auto&& put) {
-      for (std::size_t t = 0; t < complex_.triangles.size(); ++t) {
-        const auto& c = complex_.triangles[t];
-        put(edge_index(c[0], c[1]), Wing{c[2], static_cast<std::int32_t>(t), false});
-        put(edge_index(c[0], c[2]), Wing{c[1], static_cast<std::int32_t>(t), true});
-        put(edge_index(c[1], c[2]), Wing{c[0], static_cast<std::int32_t>(t), false});
-      }
-    });
-    for (std::size_t e = 0; e < complex_.edges.size(); ++e) {
-      if (e % 1024 == 0) {
-        monitor_.step(0.5 + 0.5 * static_cast<double>(e) / static_cast<double>(complex_.edges.size()));
-      }
-      arcs_of(complex_.edges[e], wings[e]);
-    }
+    PartMonitor part(monitor_, 0.5, 0.9);
+    for (const UnionArc& arc : union_arcs(complex_, sides_, part)) add_arc(arc);
   }
 
-  /// A triangle at an edge ij, i < j.
-  struct Wing {
-    std::int32_t apex = 0, triangle = 0;
-    bool odd = false;  // (i, j, apex) is an odd permutation of the ascending triangle
-  };
-
-  std::size_t edge_index(std::int32_t i, std::int32_t j) const {
-    const auto found = std::lower_bound(complex_.edges.begin(), complex_.edges.end(), std::array{i, j});
-    return static_cast<std::size_t>(found - complex_.edges.begin());
-  }
-
-  /// The corner of the wing that lies ahead of it (side 1) or behind it (side -1) when it turns around ij.
-  const Corner& corner(const Wing& wing, int side) const {
-    const bool positive = (side > 0) != wing.odd;
-    return corners_[at(wing.triangle)][positive ? 1 : 0];
-  }
-
-  void arcs_of(const std::array<std::int32_t, 2>& edge, std::span<Wing> wings) {
-    const auto [i, j] = edge;
+  void add_arc(const UnionArc& arc) {
+    const auto [i, j] = complex_.edges[at(arc.edge)];
     const Vec3 ij = center(j) - center(i);
     const double d = length(ij);
     const Vec3 axis = 1 / d * ij;
     const double foot = (d + (weight(i) - weight(j)) / d) / 2;  // from c_i to the plane of the circle
-    const auto add_arc = [&](Vec3 start, Vec3 end, double angle) {
+    const auto add_to_both = [&](Vec3 start, Vec3 end, double angle) {
       const double cosine = dot(start, end), sine = dot(cross(axis, start), end);
       const double ri = std::sqrt(weight(i)), rj = std::sqrt(weight(j));
       const auto part = [](double of, double whole) {
@@ -206,46 +166,22 @@ class Measure {
       add(patches_[at(i)], {axis, start, part(foot, ri), angle, cosine, sine});
       add(patches_[at(j)], {-axis, end, part(d - foot, rj), angle, cosine, sine});
     };
-    if (wings.empty()) {
+    if (arc.whole()) {
       const Vec3 any = std::abs(axis.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
       const Vec3 start = unit_or_zero(any - dot(any, axis) * axis);
-      return add_arc(start, start, 2 * pi);
+      return add_to_both(start, start, 2 * pi);
     }
-    const auto point = [this](std::int32_t ball) {
-      const Vec3 p = center(ball);
-      return Kernel::Point_3(p.x, p.y, p.z);
-    };
-    // 1 when b is reached from a by less than half a turn around ij, 0 when they are opposite.
-    const auto ahead = [&](const Wing& a, const Wing& b) {
-      return static_cast<int>(CGAL::orientation(point(i), point(j), point(a.apex), point(b.apex)));
-    };
-    const Wing reference = wings.front();
-    const auto half = [&](const Wing& w) {
-      if (w.triangle == reference.triangle) return 0;
-      const int turn = ahead(reference, w);
-      return turn > 0 ? 1 : turn == 0 ? 2 : 3;
-    };
-    std::sort(wings.begin(), wings.end(), [&](const Wing& a, const Wing& b) {
-      const int ha = half(a), hb = half(b);
-      return ha != hb ? ha < hb : ahead(a, b) > 0;
-    });
-    for (std::size_t k = 0; k < wings.size(); ++k) {
-      const Wing &a = wings[k], &b = wings[(k + 1) % wings.size()];
-      const Corner &from = corner(a, 1), &to = corner(b, -1);
-      if (!from.exposed || !to.exposed) continue;  // a tetrahedron lies between them
-      const Vec3 da = radial(a.apex, i, axis), db = radial(b.apex, i, axis);
-      const Vec3 start = radial(from.point, i, axis), end = radial(to.point, i, axis);
-      // From apex to apex; which half it is in is decided exactly. Then back to the corners.
-      double turn = 2 * pi;
-      if (wings.size() > 1) {
-        turn = std::abs(arctangent(dot(cross(axis, da), db), dot(da, db)));
-        const int sign = ahead(a, b);
-        if (sign == 0) turn = pi;
-        if (sign < 0) turn = 2 * pi - turn;
-      }
-      const double angle = turn - angle_between(da, start) - angle_between(end, db);
-      add_arc(start, end, std::max(0.0, angle));
+    const Vec3 da = radial(arc.from_apex, i, axis), db = radial(arc.to_apex, i, axis);
+    const Vec3 start = radial(corners_[at(arc.from)], i, axis), end = radial(corners_[at(arc.to)], i, axis);
+    // From apex to apex; which half it is in is decided exactly. Then back to the corners.
+    double turn = 2 * pi;
+    if (arc.from_apex != arc.to_apex) {
+      turn = std::abs(arctangent(dot(cross(axis, da), db), dot(da, db)));
+      if (arc.turn == 0) turn = pi;
+      if (arc.turn < 0) turn = 2 * pi - turn;
     }
+    const double angle = turn - angle_between(da, start) - angle_between(end, db);
+    add_to_both(start, end, std::max(0.0, angle));
   }
   /// Unit vector from the line through c_i to a point.
   Vec3 radial(Vec3 p, std::int32_t i, Vec3 axis) const {
@@ -315,8 +251,9 @@ class Measure {
   const SimplicialComplex& complex_;
   Monitor& monitor_;
   Vec3 origin_;
-  std::vector<Patch> patches_;                  // by ball
-  std::vector<std::array<Corner, 2>> corners_;  // by triangle; on side -1 and 1
+  std::vector<Patch> patches_;  // by ball
+  std::vector<ExposedSide> sides_;
+  std::vector<Vec3> corners_;  // of the boundary, by exposed side
 };
 
 }  // namespace

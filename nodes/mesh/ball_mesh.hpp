@@ -1,0 +1,58 @@
+// A triangle mesh of the boundary of a union of balls.
+//
+// exact: the dual complex of the union (Edelsbrunner 1995) names the corners of the boundary, where three
+// spheres meet, and the arcs between them, where two do. Arcs are cut into chords once, for the patches on
+// both sides; a patch, the part of one sphere, becomes the constrained Delaunay triangulation of its chords
+// after stereographic projection. So the topology of the mesh is decided by exact predicates, and its
+// vertices lie on the boundary of the union.
+// grid: tetrahedra on the cells of a grid, of which the corners are inside or outside. The mesh is a closed
+// manifold whatever is inside; it has the topology of the union where the cells are small enough.
+#pragma once
+
+#include <cstdint>
+
+#include "base/monitor.hpp"
+#include "types/balls.hpp"
+#include "types/mesh_report.hpp"
+#include "types/triangle_mesh.hpp"
+
+namespace ballflow::geometry {
+
+enum class BallMeshMethod {
+  exact,  // from the power diagram; balls that are not in general position grow a little; grid where that
+          // fails
+  grid,
+};
+
+struct BallMeshOptions {
+  BallMeshMethod method = BallMeshMethod::exact;
+  double error = 0.2;  // % of the longest edge of the bounding box of the balls: distance from the boundary
+  std::int64_t most_faces = 20'000'000;  // a mesh of more is refused
+  bool self_intersections = false;       // count them
+};
+
+struct BallMesh {
+  TriangleMesh mesh;
+  MeshReport report;
+};
+
+/// The boundary of the union of the closed balls: one surface for each component and for each cavity, faces
+/// seen counter-clockwise from outside the solid.
+/// - Accepts no ball (an empty mesh), nested, equal, tangent, disjoint balls, radius 0, and polar balls of
+///   which many pass through one point.
+/// - Balls in general position are meshed as they are. Where rounding would decide, every radius grows by its
+/// own
+///   amount, by at most 1e-6 of the longest edge of the bounding box; so balls that touch are joined, from
+///   outside or inside. report.growth says by how much, report.euler_meshed what the topology of the grown
+///   balls is.
+/// - The mesh depends on the set of balls, not on their order; that of mirrored balls is mirrored, and that
+/// of
+///   balls twice as large is twice as large, in general position. It does not depend on the number of
+///   threads.
+/// - Patches of thin parts may cross each other: report.self_intersections.
+/// - Throws InputError for balls that break their invariants, a single point, an error that is not positive,
+/// and
+///   when there would be more faces than asked for.
+BallMesh ball_mesh(const Balls& balls, const BallMeshOptions& options, Monitor& monitor);
+
+}  // namespace ballflow::geometry

@@ -1,0 +1,147 @@
+#include "mesh/exact_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "base/for_each_block.hpp"
+#include "base/index.hpp"
+#include "mesh/arc_net.hpp"
+#include "mesh/sphere_patch.hpp"
+
+namespace ballflow::geometry {
+namespace {
+
+// Five rounds were the most that balls in general position needed.
+constexpr std::int32_t most_rounds = 8;
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+class Builder {
+ public:
+  Builder(const SimplicialComplex& complex, ArcNet net, double error, std::size_t most, Monitor& monitor)
+      : complex_(complex),
+        net_(std::move(net)),
+        error_(error),
+        most_(most),
+        monitor_(monitor),
+        patches_(complex.centers.size()) {}
+
+  std::optional<ExactMesh> run() {
+    std::vector<std::int32_t> waiting;
+    for (std::size_t k = 0; k < complex_.vertices.size(); ++k) {
+      const std::int32_t ball = complex_.vertices[k];
+      if (!net_.arcs_of(ball).empty()) {
+        waiting.push_back(ball);
+      } else if (complex_.vertex_classes[k] == static_cast<std::uint8_t>(SimplexClass::singular)) {
+        waiting.push_back(ball);
+      }
+    }
+    for (std::int32_t round = 0; round <= most_rounds; ++round) {
+      triangulate(waiting);
+      std::vector<std::pair<std::int32_t, std::int32_t>> cut;
+      for (const std::int32_t ball : waiting) {
+        const SpherePatch& patch = patches_[at(ball)];
+        if (patch.state == SpherePatch::State::degenerate) return {};
+        cut.insert(cut.end(), patch.cut.begin(), patch.cut.end());
+      }
+      if (cut.empty()) return assemble(round);
+      waiting = bisect(cut);
+      if (net_.points().size() > most_) return {};
+    }
+    return {};
+  }
+
+ private:
+  void triangulate(const std::vector<std::int32_t>& balls) {
+    for_each_block(balls.size(), 8, monitor_, 0, 0.9, [&](std::size_t, std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k) patches_[at(balls[k])] = patch_of(balls[k]);
+    });
+  }
+
+  SpherePatch patch_of(std::int32_t ball) const {
+    const Vec3 center = complex_.centers[at(ball)];
+    const double weight = complex_.weights[at(ball)], radius = std::sqrt(weight);
+    // The largest cap inside another ball is the one whose plane is farthest on the side of the center.
+    double least = 0;
+    Vec3 pole;
+    bool none = true;
+    for (const std::int32_t arc : net_.arcs_of(ball)) {
+      const auto& pair = net_.balls_of_arc(arc);
+      const std::int32_t other = pair[0] == ball ? pair[1] : pair[0];
+      const Vec3 to = complex_.centers[at(other)] - center;
+      const double d = length(to), height = (d + (weight - complex_.weights[at(other)]) / d) / 2;
+      if (!none && height >= least) continue;
+      none = false;
+      least = height;
+      pole = 1 / d * to;
+    }
+    if (none) return whole_sphere(center, radius, error_, most_);
+    return sphere_patch(net_, ball, center, radius, pole, error_, most_, monitor_);
+  }
+
+  /// Cuts chords, each named by its arc and knot; returns the balls that see them, ascending.
+  std::vector<std::int32_t> bisect(std::vector<std::pair<std::int32_t, std::int32_t>>& cut) {
+    std::sort(cut.begin(), cut.end());
+    cut.erase(std::unique(cut.begin(), cut.end()), cut.end());
+    std::vector<std::int32_t> balls;
+    // From the end of an arc, so that the numbers of the others stay.
+    for (auto chord = cut.rbegin(); chord != cut.rend(); ++chord) {
+      net_.bisect(chord->first, chord->second);
+      for (const std::int32_t ball : net_.balls_of_arc(chord->first)) balls.push_back(ball);
+    }
+    std::sort(balls.begin(), balls.end());
+    balls.erase(std::unique(balls.begin(), balls.end()), balls.end());
+    return balls;
+  }
+
+  std::optional<ExactMesh> assemble(std::int32_t rounds) const {
+    ExactMesh result;
+    result.rounds = rounds;
+    std::vector<Vec3> vertices = net_.points();
+    std::size_t points = vertices.size(), faces = 0;
+    for (const SpherePatch& patch : patches_) {
+      points += patch.inside.size();
+      faces += patch.triangles.size();
+    }
+    index_of(points, "vertices of the mesh");
+    vertices.reserve(points);
+    std::vector<Triangle> triangles;
+    triangles.reserve(faces);
+    Lookout look(monitor_);
+    for (const SpherePatch& patch : patches_) {
+      look(16 + patch.triangles.size());
+      const auto first = static_cast<std::int32_t>(vertices.size());
+      vertices.insert(vertices.end(), patch.inside.begin(), patch.inside.end());
+      for (Triangle t : patch.triangles) {
+        for (std::int32_t& v : t) {
+          if (v < 0) v = first - 1 - v;
+        }
+        triangles.push_back(t);
+      }
+      result.error = std::max(result.error, patch.error);
+    }
+    result.mesh = {std::move(vertices), std::move(triangles)};
+    return result;
+  }
+
+  const SimplicialComplex& complex_;
+  ArcNet net_;
+  const double error_;
+  const std::size_t most_;
+  Monitor& monitor_;
+  std::vector<SpherePatch> patches_;  // by ball
+};
+
+}  // namespace
+
+std::optional<ExactMesh> exact_mesh(const PowerDiagram& diagram, const SimplicialComplex& complex,
+                                    double error, double extent, std::size_t most, Monitor& monitor) {
+  PartMonitor netting(monitor, 0, 0.2), patching(monitor, 0.2, 1);
+  std::optional<ArcNet> net = ArcNet::of(diagram, complex, error, extent, netting);
+  if (!net || net->points().size() > most) return {};
+  return Builder(complex, *std::move(net), error, most, patching).run();
+}
+
+}  // namespace ballflow::geometry

@@ -1,0 +1,550 @@
+#include "mesh/sphere_patch.hpp"
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Constrained_Delaunay_triangulation_face_base_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <tuple>
+
+#include "base/circle.hpp"
+
+namespace ballflow::geometry {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::int32_t, Kernel>;
+using FaceBase =
+    CGAL::Triangulation_face_base_with_info_2<std::int8_t, Kernel,
+                                              CGAL::Constrained_Delaunay_triangulation_face_base_2<Kernel>>;
+using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
+using Triangulation =
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::No_constraint_intersection_tag>;
+using Face = Triangulation::Face_handle;
+using Vertex = Triangulation::Vertex_handle;
+using Point = Kernel::Point_2;
+using State = SpherePatch::State;
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
+  const Vec3 d = b - a;
+  const double l = squared_length(d);
+  const double t = l > 0 ? std::clamp(dot(p - a, d) / l, 0.0, 1.0) : 0.0;
+  return distance(p, a + t * d);
+}
+
+double distance_to_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
+  const Vec3 n = cross(b - a, c - a);
+  const bool over = dot(cross(b - a, n), p - a) <= 0 && dot(cross(c - b, n), p - b) <= 0 &&
+                    dot(cross(a - c, n), p - c) <= 0;
+  if (over && squared_length(n) > 0) return std::abs(dot(n, p - a)) / length(n);
+  return std::min({distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
+}
+
+/// A sphere and the plane it is projected to.
+struct Projection {
+  Projection(Vec3 center, double radius, Vec3 pole) : c(center), r(radius), up(pole) {
+    const double x = std::abs(up.x), y = std::abs(up.y), z = std::abs(up.z);
+    const Vec3 least = x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
+    const Vec3 v = least - dot(least, up) * up;
+    right = 1 / length(v) * v;
+    ahead = cross(up, right);
+  }
+  Point plane(Vec3 p) const {
+    const Vec3 n = p - c;
+    const double s = 1 / (length(n) - dot(n, up));
+    return {s * dot(n, right), s * dot(n, ahead)};
+  }
+  Vec3 sphere(const Point& p) const {
+    const double s = p.x() * p.x() + p.y() * p.y(), t = 1 / (s + 1);
+    const Vec3 n = ((2 * p.x() * t) * right + (2 * p.y() * t) * ahead) + ((s - 1) * t) * up;
+    return c + (r / length(n)) * n;
+  }
+
+  Vec3 c;
+  double r;
+  Vec3 up, right, ahead;
+};
+
+class Patch {
+ public:
+  Patch(const ArcNet& net, std::int32_t ball, const Projection& projection, double error, std::size_t most,
+        Monitor& monitor)
+      : net_(net), ball_(ball), map_(projection), error_(error), most_(most), monitor_(monitor) {}
+
+  SpherePatch run() {
+    SpherePatch result;
+    result.state = trace(result);
+    if (result.state != State::made) return result;
+    if (!refine()) {
+      result.state = State::degenerate;
+      return result;
+    }
+    result.inside.assign(points_.begin() + static_cast<std::ptrdiff_t>(ids_.size()), points_.end());
+    for (Face f : cdt_.finite_face_handles()) {
+      if (f->info() != in) continue;
+      // Outwards: counter-clockwise in the plane is clockwise seen from outside.
+      Triangle t{};
+      for (int k = 0; k < 3; ++k) {
+        const std::int32_t v = f->vertex(2 - k)->info();
+        t[at(k)] = at(v) < ids_.size() ? ids_[at(v)] : -1 - (v - static_cast<std::int32_t>(ids_.size()));
+      }
+      result.triangles.push_back(t);
+      result.error = std::max(result.error, measure(f).error);
+    }
+    // An order that does not depend on that of the faces of the triangulation.
+    for (Triangle& t : result.triangles) {
+      std::rotate(t.begin(), std::max_element(t.begin(), t.end()), t.end());
+    }
+    std::sort(result.triangles.begin(), result.triangles.end(),
+              [](const Triangle& a, const Triangle& b) { return key(a) < key(b); });
+    return result;
+  }
+
+ private:
+  static constexpr std::int8_t unseen = 0, in = 1, out = 2;
+
+  static Triangle key(Triangle t) {
+    std::sort(t.begin(), t.end());
+    return t;
+  }
+
+  /// What may be inserted because of a triangle, or an edge.
+  struct Wish {
+    double error = 0;  // infinite where another patch might have the same edge or triangle
+    std::array<std::int32_t, 3> corners{};
+    Point place;
+    Vec3 position;
+    Face near;
+  };
+  struct Measure {
+    double error = 0;
+    bool steep = false;  // the triangle does not lie below the part of the sphere that it stands for
+  };
+
+  Vec3 position(Face f, int k) const { return points_[at(f->vertex(k)->info())]; }
+
+  bool share(std::int32_t u, std::int32_t v) const {
+    for (const std::int32_t a : others_[at(u)]) {
+      if (a >= 0 && (a == others_[at(v)][0] || a == others_[at(v)][1])) return true;
+    }
+    return false;
+  }
+  bool share(std::int32_t u, std::int32_t v, std::int32_t w) const {
+    for (const std::int32_t a : others_[at(u)]) {
+      if (a >= 0 && (a == others_[at(v)][0] || a == others_[at(v)][1]) &&
+          (a == others_[at(w)][0] || a == others_[at(w)][1]))
+        return true;
+    }
+    return false;
+  }
+
+  /// Triangulates the chords and tells inside from outside.
+  State trace(SpherePatch& result) {
+    for (const std::int32_t arc : net_.arcs_of(ball_)) net_.add_chords(ball_, arc, chords_);
+    for (const Chord& c : chords_) ids_.push_back(c.from);
+    std::sort(ids_.begin(), ids_.end());
+    ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
+    for (const std::int32_t id : ids_) {
+      points_.push_back(net_.points()[at(id)]);
+      std::array<std::int32_t, 2> others{-1, -1};
+      std::size_t k = 0;
+      for (const std::int32_t b : net_.balls_of(id)) {
+        if (b >= 0 && b != ball_ && k < 2) others[k++] = b;
+      }
+      others_.push_back(others);
+    }
+    std::vector<Vertex> vertices(ids_.size());
+    ends_.reserve(chords_.size());
+    for (const Chord& c : chords_) ends_.push_back({local(c.from), local(c.to)});
+    // Along the arcs, so that each is found from the one before.
+    Face hint;
+    for (const auto& [from, to] : ends_) {
+      for (const std::int32_t v : {from, to}) {
+        if (vertices[at(v)] != Vertex()) continue;
+        const std::size_t before = cdt_.number_of_vertices();
+        vertices[at(v)] = cdt_.insert(map_.plane(points_[at(v)]), hint);
+        if (cdt_.number_of_vertices() == before) return State::degenerate;
+        vertices[at(v)]->info() = v;
+        hint = vertices[at(v)]->face();
+      }
+    }
+    if (cdt_.dimension() < 2) return State::degenerate;
+    try {
+      for (const auto& [from, to] : ends_) cdt_.insert_constraint(vertices[at(from)], vertices[at(to)]);
+    } catch (const Triangulation::Intersection_of_constraints_exception&) {
+      return cut_crossings(result);
+    }
+    flood();
+    bool wrong = false;
+    for (const auto& [from, to] : ends_) {
+      Face f;
+      int i = 0;
+      if (!cdt_.is_edge(vertices[at(from)], vertices[at(to)], f, i) || !cdt_.is_constrained({f, i}))
+        return cut_crossings(result);
+      // The patch lies left of the chord in the plane.
+      if (f->vertex(Triangulation::ccw(i)) != vertices[at(from)]) f = f->neighbor(i);
+      const int j = f->index(vertices[at(from)]);
+      wrong = wrong || f->info() != in ||
+              f->neighbor(Triangulation::cw(j) == f->index(vertices[at(to)]) ? Triangulation::ccw(j)
+                                                                             : Triangulation::cw(j))
+                      ->info() != out;
+    }
+    return wrong ? cut_long(result) : State::made;
+  }
+
+  std::int32_t local(std::int32_t id) const {
+    return static_cast<std::int32_t>(std::lower_bound(ids_.begin(), ids_.end(), id) - ids_.begin());
+  }
+
+  /// Names chords that cross, or touch where they have no common end: of each pair the longer one.
+  State cut_crossings(SpherePatch& result) {
+    struct Segment {
+      std::size_t chord = 0;
+      double low = 0, high = 0;  // x
+    };
+    std::vector<Segment> segments;
+    std::vector<Point> plane;
+    for (const Vec3 p : points_) plane.push_back(map_.plane(p));
+    for (std::size_t k = 0; k < chords_.size(); ++k) {
+      const Point &a = plane[at(ends_[k].first)], &b = plane[at(ends_[k].second)];
+      segments.push_back({k, std::min(a.x(), b.x()), std::max(a.x(), b.x())});
+    }
+    std::sort(segments.begin(), segments.end(), [](const Segment& a, const Segment& b) {
+      return std::pair(a.low, a.chord) < std::pair(b.low, b.chord);
+    });
+    Lookout look(monitor_);
+    for (std::size_t s = 0; s < segments.size(); ++s) {
+      for (std::size_t t = s + 1; t < segments.size() && segments[t].low <= segments[s].high; ++t) {
+        look(16);
+        const std::size_t a = segments[s].chord, b = segments[t].chord;
+        if (!cross_or_touch(plane, ends_[a], ends_[b])) continue;
+        const double ha = chords_[a].sagitta, hb = chords_[b].sagitta, most = std::max(ha, hb);
+        if (ha >= 0.7 * most) result.cut.emplace_back(chords_[a].arc, chords_[a].knot);
+        if (hb >= 0.7 * most) result.cut.emplace_back(chords_[b].arc, chords_[b].knot);
+      }
+    }
+    return result.cut.empty() ? State::degenerate : State::crossing;
+  }
+  static bool cross_or_touch(const std::vector<Point>& plane, std::pair<std::int32_t, std::int32_t> a,
+                             std::pair<std::int32_t, std::int32_t> b) {
+    const Kernel::Segment_2 p(plane[at(a.first)], plane[at(a.second)]);
+    const Kernel::Segment_2 q(plane[at(b.first)], plane[at(b.second)]);
+    if (a.first == b.first || a.first == b.second || a.second == b.first || a.second == b.second) {
+      // They may only lie on each other.
+      const std::int32_t common = a.first == b.first || a.first == b.second ? a.first : a.second;
+      const Point &o = plane[at(common)], &u = plane[at(a.first == common ? a.second : a.first)],
+                  &v = plane[at(b.first == common ? b.second : b.first)];
+      return CGAL::collinear(o, u, v) && !CGAL::collinear_are_ordered_along_line(u, o, v);
+    }
+    return CGAL::do_intersect(p, q);
+  }
+
+  /// Names the chords that are farthest from their arcs: a small loop lies behind one of them.
+  State cut_long(SpherePatch& result) const {
+    double most = 0;
+    for (const Chord& c : chords_) most = std::max(most, c.sagitta);
+    for (const Chord& c : chords_) {
+      if (c.sagitta >= 0.2 * most) result.cut.emplace_back(c.arc, c.knot);
+    }
+    return State::crossing;
+  }
+
+  /// A face is inside when an odd number of chords lies between it and infinity.
+  void flood() {
+    for (Face f : cdt_.all_face_handles()) f->info() = unseen;
+    std::vector<Face> stack{cdt_.infinite_face()};
+    stack.back()->info() = out;
+    while (!stack.empty()) {
+      const Face f = stack.back();
+      stack.pop_back();
+      for (int i = 0; i < 3; ++i) {
+        const Face g = f->neighbor(i);
+        if (g->info() != unseen) continue;
+        const bool turns = cdt_.is_constrained({f, i});
+        g->info() = (f->info() == in) != turns ? in : out;
+        stack.push_back(g);
+      }
+    }
+  }
+
+  Measure measure(Face f) const {
+    const Vec3 a = position(f, 0), b = position(f, 1), c = position(f, 2), o = map_.c;
+    const Vec3 n = cross(c - a, b - a);  // outwards
+    const double nn = squared_length(n), r = map_.r;
+    if (!(nn > 0) || dot(n, a - o) < 0.3 * r * std::sqrt(nn)) {
+      Measure m{0, true};
+      for (const auto& [p, q] : {std::pair(0, 1), std::pair(1, 2), std::pair(2, 0)}) {
+        if (cdt_.is_constrained({f, 3 - p - q})) continue;
+        m.error = std::max(m.error, distance_to_triangle(middle_of(f, p, q), a, b, c));
+      }
+      m.error = std::max(m.error, distance_to_triangle(middle_of(f), a, b, c));
+      return m;
+    }
+    // The point of the triangle next to the center is that below it, or the middle of the longest edge.
+    std::array<double, 3> l{squared_distance(b, c), squared_distance(c, a), squared_distance(a, b)};
+    std::sort(l.begin(), l.end());
+    const double q = l[0] + l[1] > l[2] ? l[0] * l[1] * l[2] / (4 * nn) : l[2] / 4;
+    return {q / (r + std::sqrt(std::max(0.0, r * r - q))), false};
+  }
+
+  /// Planar points in the middle of a face or an edge, with the corners in the order of their numbers.
+  Point middle_in_plane(Face f, int p, int q) const {
+    const Point &a = f->vertex(p)->point(), &b = f->vertex(q)->point();
+    return {(a.x() + b.x()) / 2, (a.y() + b.y()) / 2};
+  }
+  Point middle_in_plane(Face f) const {
+    std::array<int, 3> k{0, 1, 2};
+    std::sort(k.begin(), k.end(), [&](int p, int q) { return f->vertex(p)->info() < f->vertex(q)->info(); });
+    const Point &a = f->vertex(k[0])->point(), &b = f->vertex(k[1])->point(), &c = f->vertex(k[2])->point();
+    return {((a.x() + b.x()) + c.x()) / 3, ((a.y() + b.y()) + c.y()) / 3};
+  }
+  Vec3 middle_of(Face f, int p, int q) const { return map_.sphere(middle_in_plane(f, p, q)); }
+  Vec3 middle_of(Face f) const { return map_.sphere(middle_in_plane(f)); }
+
+  /// The face inside whose interior, or on whose inner edge, a point lies.
+  std::optional<Face> face_inside(const Point& p, Face near) const {
+    Triangulation::Locate_type type;
+    int i = 0;
+    const Face f = cdt_.locate(p, type, i, near);
+    if (type == Triangulation::FACE && f->info() == in) return f;
+    if (type == Triangulation::EDGE && !cdt_.is_constrained({f, i}) && f->info() == in) return f;
+    return {};
+  }
+
+  /// Where a face is too far from the sphere, the point that helps.
+  std::optional<Wish> wish_of(Face f, const Measure& measured) const {
+    if (measured.steep) {
+      Wish best = wish_at(f, middle_in_plane(f), measured.error);
+      double most = distance_to(f, best.position);
+      for (const auto& [p, q] : {std::pair(0, 1), std::pair(1, 2), std::pair(2, 0)}) {
+        if (cdt_.is_constrained({f, 3 - p - q})) continue;
+        const Wish w = wish_at(f, middle_in_plane(f, p, q), measured.error);
+        const double d = distance_to(f, w.position);
+        if (d > most) {
+          most = d;
+          best = w;
+        }
+      }
+      return best;
+    }
+    std::array<int, 3> k{0, 1, 2};
+    std::sort(k.begin(), k.end(), [&](int p, int q) { return f->vertex(p)->info() < f->vertex(q)->info(); });
+    const Vec3 a = position(f, k[0]), b = position(f, k[1]), c = position(f, k[2]);
+    Vec3 n = cross(b - a, c - a);
+    if (dot(n, a - map_.c) < 0) n = -n;
+    const Vec3 top = map_.c + (map_.r / length(n)) * n;
+    const Point p = map_.plane(top);
+    if (const auto found = face_inside(p, f)) return Wish{measured.error, corners(f), p, top, *found};
+    int longest = 0;
+    double most = 0;
+    for (const int i : k) {
+      const double l =
+          squared_distance(position(f, Triangulation::ccw(i)), position(f, Triangulation::cw(i)));
+      if (l > most) {
+        most = l;
+        longest = i;
+      }
+    }
+    if (!cdt_.is_constrained({f, longest}))
+      return wish_at(f, middle_in_plane(f, Triangulation::ccw(longest), Triangulation::cw(longest)),
+                     measured.error);
+    return wish_at(f, middle_in_plane(f), measured.error);
+  }
+  double distance_to(Face f, Vec3 p) const {
+    return distance_to_triangle(p, position(f, 0), position(f, 1), position(f, 2));
+  }
+  Wish wish_at(Face f, const Point& p, double error) const {
+    return {error, corners(f), p, map_.sphere(p), f};
+  }
+  static Triangle corners(Face f) {
+    return key({f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()});
+  }
+
+  bool insert(const Wish& wish, Face near) {
+    const auto found = face_inside(wish.place, near);
+    if (!found) return false;
+    const Vertex v = cdt_.insert(wish.place, *found);
+    v->info() = static_cast<std::int32_t>(points_.size());
+    points_.push_back(wish.position);
+    others_.push_back({-1, -1});
+    return true;
+  }
+
+  void insert_directions() {
+    const double s = 1 / std::sqrt(3.0);
+    std::vector<Vec3> directions{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    for (int k = 0; k < 8; ++k)
+      directions.push_back({(k & 1) != 0 ? s : -s, (k & 2) != 0 ? s : -s, (k & 4) != 0 ? s : -s});
+    for (const Vec3 d : directions) {
+      const Vec3 p = map_.c + map_.r * d;
+      if (dot(d, map_.up) > 0.99) continue;
+      if (insert({0, {}, map_.plane(p), p, Face()}, cdt_.infinite_face())) flood();
+    }
+  }
+
+  bool refine() {
+    constexpr double always = std::numeric_limits<double>::infinity();
+    const double apart = map_.r * error_;  // squared distance of points inserted in one pass
+    Lookout look(monitor_);
+    std::vector<Wish> wishes;
+    std::vector<Vec3> fresh;
+    for (bool first = true;; first = false) {
+      if (!first) flood();
+      wishes.clear();
+      bool steep = false;
+      for (Face f : cdt_.finite_face_handles()) {
+        look(64);
+        if (f->info() != in) continue;
+        const Triangle t{f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()};
+        bool topological = false;
+        for (int i = 0; i < 3; ++i) {
+          const int p = Triangulation::ccw(i), q = Triangulation::cw(i);
+          if (cdt_.is_constrained({f, i}) || !share(t[at(p)], t[at(q)])) continue;
+          topological = true;
+          if (t[at(p)] > t[at(q)]) continue;  // once for both faces
+          Wish w = wish_at(f, middle_in_plane(f, p, q), always);
+          w.corners = {t[at(p)], t[at(q)], -1};
+          wishes.push_back(w);
+        }
+        if (topological) continue;
+        if (share(t[0], t[1], t[2])) {
+          wishes.push_back(wish_at(f, middle_in_plane(f), always));
+          continue;
+        }
+        const Measure m = measure(f);
+        if (m.error <= error_) continue;
+        steep = steep || m.steep;
+        if (const auto wish = wish_of(f, m)) wishes.push_back(*wish);
+      }
+      if (wishes.empty()) return true;
+      if (first && steep) {
+        insert_directions();
+        continue;
+      }
+      std::sort(wishes.begin(), wishes.end(), [](const Wish& a, const Wish& b) {
+        return a.error != b.error ? a.error > b.error : a.corners < b.corners;
+      });
+      fresh.clear();
+      // Faces are only found again from the last vertex: insertions change them.
+      Face near;
+      for (const Wish& wish : wishes) {
+        look(256);
+        const bool close = std::any_of(fresh.begin(), fresh.end(),
+                                       [&](Vec3 p) { return squared_distance(p, wish.position) < apart; });
+        if (close) continue;
+        if (!located_inside(wish.place, near)) {
+          if (fresh.empty() && &wish == &wishes.back()) return false;
+          continue;
+        }
+        const Vertex v = cdt_.insert(wish.place, near);
+        near = v->face();
+        v->info() = static_cast<std::int32_t>(points_.size());
+        points_.push_back(wish.position);
+        others_.push_back({-1, -1});
+        fresh.push_back(wish.position);
+      }
+      if (fresh.empty() || points_.size() - ids_.size() > most_) return false;
+    }
+  }
+
+  /// Whether p can be inserted: no chord and no point is there. Whether it is in the patch was looked at
+  /// before; insertions inside of it change no chord.
+  bool located_inside(const Point& p, Face& near) const {
+    Triangulation::Locate_type type;
+    int i = 0;
+    near = cdt_.locate(p, type, i, near);
+    return type == Triangulation::FACE || (type == Triangulation::EDGE && !cdt_.is_constrained({near, i}));
+  }
+
+  const ArcNet& net_;
+  const std::int32_t ball_;
+  const Projection map_;
+  const double error_;
+  const std::size_t most_;
+  Monitor& monitor_;
+
+  std::vector<Chord> chords_;
+  std::vector<std::pair<std::int32_t, std::int32_t>> ends_;  // of chords, local
+  std::vector<std::int32_t> ids_;                    // points of the net, ascending: the first local ones
+  std::vector<Vec3> points_;                         // local
+  std::vector<std::array<std::int32_t, 2>> others_;  // local; the other balls whose spheres have the point
+  Triangulation cdt_;
+};
+
+}  // namespace
+
+SpherePatch sphere_patch(const ArcNet& net, std::int32_t ball, Vec3 center, double radius, Vec3 pole,
+                         double error, std::size_t most, Monitor& monitor) {
+  return Patch(net, ball, Projection(center, radius, pole), error, most, monitor).run();
+}
+
+SpherePatch whole_sphere(Vec3 center, double radius, double error, std::size_t most) {
+  SpherePatch result;
+  for (std::int32_t n = 1;; ++n) {
+    if (static_cast<std::size_t>(4 * n) * at(n) > most) return result;
+    // Vertices of the octahedron |i| + |j| + |k| = n, by (i, j) and the sign of k.
+    result.inside.clear();
+    result.triangles.clear();
+    std::vector<std::array<std::int32_t, 2>> index(at((2 * n + 1) * (2 * n + 1)), {-1, -1});
+    const auto slot = [&](std::int32_t i, std::int32_t j) -> auto& {
+      return index[at((i + n) * (2 * n + 1) + j + n)];
+    };
+    for (std::int32_t i = -n; i <= n; ++i) {
+      for (std::int32_t j = -n; j <= n; ++j) {
+        const std::int32_t k = n - std::abs(i) - std::abs(j);
+        if (k < 0) continue;
+        for (const int below : {0, 1}) {
+          if (k == 0 && below == 1) {
+            slot(i, j)[1] = slot(i, j)[0];
+            continue;
+          }
+          // With sines, equal steps along the edges of the octahedron are equal angles.
+          const auto sine = [n](std::int32_t of) {
+            return on_circle(static_cast<double>(of) / static_cast<double>(4 * n))[1];
+          };
+          const Vec3 d{sine(i), sine(j), sine(below == 1 ? -k : k)};
+          slot(i, j)[at(below)] = static_cast<std::int32_t>(result.inside.size());
+          result.inside.push_back(center + (radius / length(d)) * d);
+        }
+      }
+    }
+    const auto vertex = [&](std::int32_t i, std::int32_t j, std::int32_t k) {
+      return -1 - slot(i, j)[k < 0 ? 1 : 0];
+    };
+    for (int octant = 0; octant < 8; ++octant) {
+      const std::int32_t sx = (octant & 1) != 0 ? -1 : 1, sy = (octant & 2) != 0 ? -1 : 1,
+                         sz = (octant & 4) != 0 ? -1 : 1;
+      const auto corner = [&](std::int32_t i, std::int32_t j) {
+        return vertex(sx * i, sy * j, sz * (n - i - j));
+      };
+      const auto add = [&](std::int32_t a, std::int32_t b, std::int32_t c) {
+        if (sx * sy * sz < 0) std::swap(b, c);
+        result.triangles.push_back({a, b, c});
+      };
+      for (std::int32_t i = 0; i < n; ++i) {
+        for (std::int32_t j = 0; i + j < n; ++j) {
+          add(corner(i, j), corner(i + 1, j), corner(i, j + 1));
+          if (i + j + 2 <= n) add(corner(i + 1, j + 1), corner(i, j + 1), corner(i + 1, j));
+        }
+      }
+    }
+    result.error = 0;
+    for (const Triangle& t : result.triangles) {
+      const Vec3 a = result.inside[at(-1 - t[0])], b = result.inside[at(-1 - t[1])],
+                 c = result.inside[at(-1 - t[2])];
+      result.error = std::max(result.error, radius - distance_to_triangle(center, a, b, c));
+    }
+    if (result.error <= error) break;
+  }
+  result.state = State::made;
+  return result;
+}
+
+}  // namespace ballflow::geometry

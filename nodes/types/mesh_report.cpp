@@ -1,0 +1,47 @@
+#include "types/mesh_report.hpp"
+
+#include <cmath>
+
+namespace ballflow::geometry {
+
+std::string_view in_words(MeshedBy how) {
+  switch (how) {
+    case MeshedBy::exact:
+      return "exact";
+    case MeshedBy::exact_grown:
+      return "exact, of balls that grew";
+    default:
+      return "grid";
+  }
+}
+
+std::string what_differs(const MeshReport& r) {
+  std::string text;
+  const auto add = [&text](const std::string& what) { text += (text.empty() ? "" : "; ") + what; };
+  if (r.closed == 0) add("the mesh is not closed");
+  if (r.manifold == 0) add("the mesh is not a manifold");
+  if (r.oriented == 0) add("the triangles do not all face outwards");
+  if (r.euler != 2 * r.euler_meshed) {
+    add("the Euler characteristic of the mesh is " + std::to_string(r.euler) +
+        ", that of the boundary of the union " + std::to_string(2 * r.euler_meshed));
+  }
+  if (r.error > r.error_asked) {
+    add("the mesh is " + std::to_string(r.error) + " off, " + std::to_string(r.error_asked) +
+        " was asked for");
+  }
+  return text;
+}
+
+std::string broken_invariant(const MeshReport& r) {
+  if (r.made_by > static_cast<std::uint8_t>(MeshedBy::grid)) return "made_by is above 2";
+  if (r.vertices < 0 || r.faces < 0 || r.components < 0 || r.rounds < 0) return "a count is negative";
+  if (r.closed > 1 || r.manifold > 1 || r.oriented > 1)
+    return "closed, manifold or oriented is neither 0 nor 1";
+  for (const double x : {r.error_asked, r.error, r.growth, r.cell}) {
+    if (!(x >= 0 && std::isfinite(x))) return "a length is negative or not finite";
+  }
+  if (r.self_intersections < -1) return "the number of self-intersections is below -1";
+  return {};
+}
+
+}  // namespace ballflow::geometry
