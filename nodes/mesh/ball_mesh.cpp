@@ -1,6 +1,7 @@
 #include "mesh/ball_mesh.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -10,8 +11,10 @@
 
 #include "base/random.hpp"
 #include "mesh/exact_mesh.hpp"
+#include "mesh/grid_mesh.hpp"
 #include "power/alpha_shape.hpp"
 #include "power/power_diagram.hpp"
+#include "power/union_betti.hpp"
 #include "power/union_vertices.hpp"
 #include "search/self_intersection.hpp"
 
@@ -37,11 +40,14 @@ Balls in_order(const Balls& balls) {
   return {std::move(centers), std::move(radii), {}, {}};
 }
 
-/// Every radius grown by its own part of `most`.
+// Corners of a grid, 8 bytes each.
+constexpr std::size_t most_corners = std::size_t{1} << 26;
+
+/// Every radius grown by its own part of `most`, which is negative to shrink them.
 Balls grown(const Balls& balls, double most) {
   std::vector<double> radii;
   radii.reserve(balls.size());
-  for (std::size_t i = 0; i < balls.size(); ++i) radii.push_back(balls.radii[i] + most * Random(i).unit());
+  for (std::size_t i = 0; i < balls.size(); ++i) radii.push_back(std::max(0.0, balls.radii[i] + most * Random(i).unit()));
   return {balls.centers, std::move(radii), {}, {}};
 }
 
@@ -61,8 +67,7 @@ class Mesher {
     if (!(extent_ > 0))
       throw InputError("the union of the balls is a single point, which has no surface",
                        "give the ball a radius, or leave it out");
-    if (!made()) throw InputError("not made", "");
-    describe();
+    if (options_.method == BallMeshMethod::grid || !exact()) grid();
     if (options_.self_intersections) {
       result_.report.self_intersections = static_cast<std::int64_t>(
           self_intersections(result_.mesh, static_cast<std::size_t>(-1), monitor_).pairs.size());
@@ -71,35 +76,91 @@ class Mesher {
   }
 
  private:
-  bool made() {
-    if (attempt(0, 0, 0.4)) return true;
-    for (const int bits : {30, 25, 20}) {
-      if (attempt(std::ldexp(extent_, -bits), 0.4, 0.6)) return true;
-    }
-    return false;
+  /// A union, and what is known about it.
+  struct Looked {
+    Balls balls;
+    double growth = 0;
+    PowerDiagram diagram;
+    SimplicialComplex complex;
+  };
+
+  Looked look_at(double growth, Monitor& monitor) const {
+    Looked looked{growth != 0 ? grown(balls_, growth) : balls_, growth, {}, {}};
+    looked.diagram = power_diagram(looked.balls, {}, monitor);
+    looked.complex = alpha_shape(looked.diagram, monitor);
+    return looked;
   }
 
-  /// Meshes the balls, each grown by at most `growth`.
-  bool attempt(double growth, double begin, double end) {
-    PartMonitor part(monitor_, begin, end);
-    PartMonitor looking(part, 0, 0.4), meshing(part, 0.4, 1);
-    const Balls balls = growth > 0 ? grown(balls_, growth) : balls_;
-    const PowerDiagram diagram = power_diagram(balls, {}, looking);
-    const SimplicialComplex complex = alpha_shape(diagram, looking);
+  bool exact() {
+    PartMonitor first(monitor_, 0, 0.5), others(monitor_, 0.5, 0.6);
+    const Looked given = look_at(0, first);
+    result_.report.euler_given = given.complex.euler_characteristic();
+    if (made_from(given, first)) return true;
+    // Growth joins balls that touch, as they are in the complex. But it joins others too where balls were grown
+    // before until they all but touch; there radii that shrink keep the topology.
+    std::vector<double> growths;
+    for (const int bits : {34, 30, 25, 20}) {
+      const double growth = std::ldexp(extent_, -bits);
+      growths.push_back(growth);
+      for (const double g : {growth, -growth}) {
+        const Looked looked = look_at(g, others);
+        if (looked.complex.betti == given.complex.betti && made_from(looked, others)) return true;
+      }
+    }
+    return std::any_of(growths.begin(), growths.end(), [&](double growth) {
+      return made_from(look_at(growth, others), others);
+    });
+  }
+
+  bool made_from(const Looked& looked, Monitor& monitor) {
     MeshReport& report = result_.report;
-    report.euler_meshed = complex.euler_characteristic();
-    if (growth == 0) report.euler_given = report.euler_meshed;
-    // A mesh of f triangles has half as many vertices.
-    std::optional<ExactMesh> mesh = exact_mesh(diagram, complex, report.error_asked, extent_,
-                                               static_cast<std::size_t>(options_.most_faces) / 2, meshing);
+    // A closed mesh of f triangles has about half as many vertices.
+    std::optional<ExactMesh> mesh = exact_mesh(looked.diagram, looked.complex, report.error_asked, extent_,
+                                               static_cast<std::size_t>(options_.most_faces) / 2, monitor);
     if (!mesh) return false;
     result_.mesh = std::move(mesh->mesh);
-    report.made_by = static_cast<std::uint8_t>(growth > 0 ? MeshedBy::exact_grown : MeshedBy::exact);
-    report.error = mesh->error;
-    report.growth = growth;
+    report.made_by = static_cast<std::uint8_t>(looked.growth != 0 ? MeshedBy::exact_grown : MeshedBy::exact);
+    report.error = mesh->error + std::abs(looked.growth);
+    report.growth = looked.growth;
     report.rounds = mesh->rounds;
+    report.set_union(looked.complex.betti);
     describe();
     return report.right_topology();
+  }
+
+  /// Refines a grid until the mesh is near enough and has the topology of the union, or memory ends it.
+  void grid() {
+    PartMonitor counting(monitor_, 0.6, 0.65), meshing(monitor_, 0.65, 1);
+    MeshReport& report = result_.report;
+    const std::array<std::int64_t, 3> betti = union_betti(balls_, AlphaTolerance::none, counting);
+    report.euler_given = betti[0] - betti[1] + betti[2];
+    report.set_union(betti);
+    report.made_by = static_cast<std::uint8_t>(MeshedBy::grid);
+    report.growth = 0;
+    bool any = false;
+    double cell = 2.5 * report.error_asked;
+    for (std::int64_t round = 0;; ++round) {
+      std::optional<GridMesh> mesh =
+          grid_mesh(balls_, cell, most_corners, static_cast<std::size_t>(options_.most_faces), meshing);
+      if (!mesh) {
+        if (any) return;
+        // Coarser, so that there is a mesh at all; the report says how far off it is.
+        cell *= 1.5;
+        if (cell > extent_)
+          throw InputError("a mesh of at most " + std::to_string(options_.most_faces) + " faces was asked for",
+                           "allow more faces");
+        continue;
+      }
+      result_.mesh = std::move(mesh->mesh);
+      // Between the places that were looked at it may be a little larger.
+      report.error = 1.05 * mesh->error;
+      report.cell = cell;
+      report.rounds = round;
+      describe();
+      if (what_differs(report).empty()) return;
+      any = true;
+      cell *= report.error > report.error_asked ? std::clamp(0.9 * report.error_asked / report.error, 0.5, 0.8) : 0.7;
+    }
   }
 
   void describe() {
@@ -111,7 +172,7 @@ class Mesher {
     report.closed = topology.closed ? 1 : 0;
     report.manifold = topology.manifold ? 1 : 0;
     report.oriented = topology.oriented ? 1 : 0;
-    report.euler = topology.closed ? topology.vertices - topology.faces / 2 : 0;
+    report.euler = topology.vertices - topology.faces / 2;
   }
 
   const Balls balls_;

@@ -35,6 +35,7 @@ class Builder {
       if (!net_.arcs_of(ball).empty()) {
         waiting.push_back(ball);
       } else if (complex_.vertex_classes[k] == static_cast<std::uint8_t>(SimplexClass::singular)) {
+        if (!(complex_.weights[at(ball)] > 0)) return {};  // a point has no surface
         waiting.push_back(ball);
       }
     }

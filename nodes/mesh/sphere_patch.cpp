@@ -278,20 +278,19 @@ class Patch {
     const Vec3 a = position(f, 0), b = position(f, 1), c = position(f, 2), o = map_.c;
     const Vec3 n = cross(c - a, b - a);  // outwards
     const double nn = squared_length(n), r = map_.r;
-    if (!(nn > 0) || dot(n, a - o) < 0.3 * r * std::sqrt(nn)) {
-      Measure m{0, true};
-      for (const auto& [p, q] : {std::pair(0, 1), std::pair(1, 2), std::pair(2, 0)}) {
-        if (cdt_.is_constrained({f, 3 - p - q})) continue;
-        m.error = std::max(m.error, distance_to_triangle(middle_of(f, p, q), a, b, c));
-      }
-      m.error = std::max(m.error, distance_to_triangle(middle_of(f), a, b, c));
-      return m;
-    }
     // The point of the triangle next to the center is that below it, or the middle of the longest edge.
     std::array<double, 3> l{squared_distance(b, c), squared_distance(c, a), squared_distance(a, b)};
     std::sort(l.begin(), l.end());
     const double q = l[0] + l[1] > l[2] ? l[0] * l[1] * l[2] / (4 * nn) : l[2] / 4;
-    return {q / (r + std::sqrt(std::max(0.0, r * r - q))), false};
+    Measure m{q / (r + std::sqrt(std::max(0.0, r * r - q))), false};
+    if (nn > 0 && dot(n, a - o) >= 0.3 * r * std::sqrt(nn)) return m;
+    m.steep = true;
+    for (const auto& [p, q2] : {std::pair(0, 1), std::pair(1, 2), std::pair(2, 0)}) {
+      if (cdt_.is_constrained({f, 3 - p - q2})) continue;
+      m.error = std::max(m.error, distance_to_triangle(middle_of(f, p, q2), a, b, c));
+    }
+    m.error = std::max(m.error, distance_to_triangle(middle_of(f), a, b, c));
+    return m;
   }
 
   /// Planar points in the middle of a face or an edge, with the corners in the order of their numbers.

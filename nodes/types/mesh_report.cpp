@@ -1,5 +1,6 @@
 #include "types/mesh_report.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace ballflow::geometry {
@@ -21,6 +22,10 @@ std::string what_differs(const MeshReport& r) {
   if (r.closed == 0) add("the mesh is not closed");
   if (r.manifold == 0) add("the mesh is not a manifold");
   if (r.oriented == 0) add("the triangles do not all face outwards");
+  if (r.components != r.surfaces) {
+    add("the mesh has " + std::to_string(r.components) + " components, the boundary of the union " +
+        std::to_string(r.surfaces));
+  }
   if (r.euler != 2 * r.euler_meshed) {
     add("the Euler characteristic of the mesh is " + std::to_string(r.euler) +
         ", that of the boundary of the union " + std::to_string(2 * r.euler_meshed));
@@ -34,10 +39,11 @@ std::string what_differs(const MeshReport& r) {
 
 std::string broken_invariant(const MeshReport& r) {
   if (r.made_by > static_cast<std::uint8_t>(MeshedBy::grid)) return "made_by is above 2";
-  if (r.vertices < 0 || r.faces < 0 || r.components < 0 || r.rounds < 0) return "a count is negative";
+  if (std::min({r.vertices, r.faces, r.components, r.surfaces, r.rounds}) < 0) return "a count is negative";
   if (r.closed > 1 || r.manifold > 1 || r.oriented > 1)
     return "closed, manifold or oriented is neither 0 nor 1";
-  for (const double x : {r.error_asked, r.error, r.growth, r.cell}) {
+  if (!std::isfinite(r.growth)) return "growth is not finite";
+  for (const double x : {r.error_asked, r.error, r.cell}) {
     if (!(x >= 0 && std::isfinite(x))) return "a length is negative or not finite";
   }
   if (r.self_intersections < -1) return "the number of self-intersections is below -1";

@@ -1,6 +1,7 @@
 // How a mesh of the boundary of a union of balls was made, and what holds of it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -20,20 +21,26 @@ struct MeshReport {
   std::int64_t vertices = 0, faces = 0;
   std::int64_t components = 0;  // of the mesh
   std::int64_t euler = 0;       // Euler characteristic of the mesh
+  std::int64_t surfaces = 0;    // components of the boundary of the union that was meshed
   // Euler characteristic of the union of the balls as they were given, and of the union that was meshed.
   std::int64_t euler_given = 0, euler_meshed = 0;
   std::uint8_t closed = 0, manifold = 0, oriented = 0;  // 1 or 0: see MeshTopology
 
   double error_asked = 0;  // model units
   double error = 0;        // the largest distance of a triangle from the boundary of the union that was found
-  double growth = 0;       // the most that a radius grew, model units
+  double growth = 0;       // the most that a radius grew, or shrank where it is negative, model units
   double cell = 0;         // edge of a cell of the grid, model units; 0 without a grid
   std::int64_t rounds = 0;               // how often arcs were divided again, or the grid was refined
   std::int64_t self_intersections = -1;  // pairs of triangles that cross; -1: not counted
 
+  /// Betti numbers of the union that was meshed.
+  void set_union(const std::array<std::int64_t, 3>& betti) {
+    surfaces = betti[0] + betti[2];
+    euler_meshed = betti[0] - betti[1] + betti[2];
+  }
   /// The boundary of a solid has twice its Euler characteristic.
   bool right_topology() const {
-    return closed != 0 && manifold != 0 && oriented != 0 && euler == 2 * euler_meshed;
+    return closed != 0 && manifold != 0 && oriented != 0 && components == surfaces && euler == 2 * euler_meshed;
   }
 };
 
