@@ -114,12 +114,13 @@ std::optional<ArcNet> ArcNet::of(const PowerDiagram& diagram, const SimplicialCo
     if (arc.whole()) {
       made.start = orthogonal(axis);
       made.side = cross(axis, made.start);
-      if (before(-made.side, made.side)) {
+      made.start = made.radius * made.start;
+      made.side = made.radius * made.side;
+      // Turned so that a mirrored circle has the same knots in the same order.
+      if (before(made.middle - made.side, made.middle + made.side)) {
         made.side = -made.side;
         made.forward = false;
       }
-      made.start = made.radius * made.start;
-      made.side = made.radius * made.side;
       made.knots = {{-1, 0}, {-1, 2 * pi}};
     } else {
       const auto radial = [&](Vec3 p) {
@@ -138,12 +139,13 @@ std::optional<ArcNet> ArcNet::of(const PowerDiagram& diagram, const SimplicialCo
         if (arc.turn < 0) turn = 2 * pi - turn;
       }
       const double rough = turn - angle_between(da, start) - angle_between(end, db);
-      double angle = arctangent(dot(cross(axis, start), end), dot(start, end));
+      made.forward = arc.from < arc.to;
+      const Vec3 begin = made.forward ? start : end, finish = made.forward ? end : start;
+      const double sine = dot(cross(axis, begin), finish);
+      double angle = arctangent(made.forward ? sine : -sine, dot(start, end));
       while (angle < rough - pi) angle += 2 * pi;
       while (angle > rough + pi) angle -= 2 * pi;
       if (!(angle > 0 && angle < 2 * pi)) return {};
-      made.forward = arc.from < arc.to;
-      const Vec3 begin = made.forward ? start : end;
       made.start = made.radius * begin;
       made.side = (made.forward ? made.radius : -made.radius) * cross(axis, begin);
       made.knots = {{std::min(arc.from, arc.to), 0}, {std::max(arc.from, arc.to), angle}};

@@ -41,7 +41,7 @@ Balls in_order(const Balls& balls) {
 }
 
 // Corners of a grid, 8 bytes each.
-constexpr std::size_t most_corners = std::size_t{1} << 26;
+constexpr std::size_t most_corners = std::size_t{1} << 25;
 
 /// Every radius grown by its own part of `most`, which is negative to shrink them.
 Balls grown(const Balls& balls, double most) {
@@ -114,9 +114,8 @@ class Mesher {
 
   bool made_from(const Looked& looked, Monitor& monitor) {
     MeshReport& report = result_.report;
-    // A closed mesh of f triangles has about half as many vertices.
     std::optional<ExactMesh> mesh = exact_mesh(looked.diagram, looked.complex, report.error_asked, extent_,
-                                               static_cast<std::size_t>(options_.most_faces) / 2, monitor);
+                                               options_.most_faces, monitor);
     if (!mesh) return false;
     result_.mesh = std::move(mesh->mesh);
     report.made_by = static_cast<std::uint8_t>(looked.growth != 0 ? MeshedBy::exact_grown : MeshedBy::exact);
@@ -137,18 +136,18 @@ class Mesher {
     report.set_union(betti);
     report.made_by = static_cast<std::uint8_t>(MeshedBy::grid);
     report.growth = 0;
-    bool any = false;
+    // Thin parts want smaller cells, but in the bottom of sharp notches there are bubbles at every size: two rounds
+    // without progress are enough.
+    std::optional<BallMesh> best;
     double cell = 2.5 * report.error_asked;
-    for (std::int64_t round = 0;; ++round) {
+    for (std::int64_t round = 0, in_vain = 0; in_vain < 2; ++round) {
       std::optional<GridMesh> mesh =
           grid_mesh(balls_, cell, most_corners, static_cast<std::size_t>(options_.most_faces), meshing);
+      if (!mesh && best) break;
       if (!mesh) {
-        if (any) return;
         // Coarser, so that there is a mesh at all; the report says how far off it is.
         cell *= 1.5;
-        if (cell > extent_)
-          throw InputError("a mesh of at most " + std::to_string(options_.most_faces) + " faces was asked for",
-                           "allow more faces");
+        if (cell > extent_) throw too_many_faces(options_.most_faces);
         continue;
       }
       result_.mesh = std::move(mesh->mesh);
@@ -158,9 +157,23 @@ class Mesher {
       report.rounds = round;
       describe();
       if (what_differs(report).empty()) return;
-      any = true;
+      if (best && !better(report, best->report)) {
+        ++in_vain;
+      } else {
+        in_vain = 0;
+        best = result_;
+      }
       cell *= report.error > report.error_asked ? std::clamp(0.9 * report.error_asked / report.error, 0.5, 0.8) : 0.7;
     }
+    if (best) result_ = *std::move(best);
+  }
+  /// Whether a is nearer to what was asked for: first the distance, then the topology.
+  static bool better(const MeshReport& a, const MeshReport& b) {
+    const auto off = [](const MeshReport& r) {
+      return std::abs(r.euler - 2 * r.euler_meshed) + 2 * std::abs(r.components - r.surfaces);
+    };
+    if (a.error > a.error_asked || b.error > b.error_asked) return a.error < b.error;
+    return off(a) < off(b);
   }
 
   void describe() {

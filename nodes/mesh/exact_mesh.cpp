@@ -1,7 +1,9 @@
 #include "mesh/exact_mesh.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -20,11 +22,11 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 class Builder {
  public:
-  Builder(const SimplicialComplex& complex, ArcNet net, double error, std::size_t most, Monitor& monitor)
+  Builder(const SimplicialComplex& complex, ArcNet net, double error, std::int64_t most_faces, Monitor& monitor)
       : complex_(complex),
         net_(std::move(net)),
         error_(error),
-        most_(most),
+        most_faces_(most_faces),
         monitor_(monitor),
         patches_(complex.centers.size()) {}
 
@@ -49,15 +51,19 @@ class Builder {
       }
       if (cut.empty()) return assemble(round);
       waiting = bisect(cut);
-      if (net_.points().size() > most_) return {};
     }
     return {};
   }
 
  private:
   void triangulate(const std::vector<std::int32_t>& balls) {
+    faces_ = 0;
     for_each_block(balls.size(), 8, monitor_, 0, 0.9, [&](std::size_t, std::size_t first, std::size_t last) {
-      for (std::size_t k = first; k < last; ++k) patches_[at(balls[k])] = patch_of(balls[k]);
+      for (std::size_t k = first; k < last; ++k) {
+        SpherePatch& patch = patches_[at(balls[k])] = patch_of(balls[k]);
+        faces_ += static_cast<std::int64_t>(patch.triangles.size());
+        if (faces_ > most_faces_) throw too_many_faces(most_faces_);
+      }
     });
   }
 
@@ -78,8 +84,14 @@ class Builder {
       least = height;
       pole = 1 / d * to;
     }
-    if (none) return whole_sphere(center, radius, error_, most_);
-    return sphere_patch(net_, ball, center, radius, pole, error_, most_, monitor_);
+    // The fewest triangles that a whole sphere can have: equilateral ones, as far away as is allowed.
+    const double fewest = 4.8 * radius / error_;
+    if (none) {
+      if (fewest > static_cast<double>(most_faces_)) throw too_many_faces(most_faces_);
+      return whole_sphere(center, radius, error_);
+    }
+    return sphere_patch(net_, ball, center, radius, pole, error_,
+                        1000 + static_cast<std::size_t>(std::min(20 * fewest, 1e9)), monitor_);
   }
 
   /// Cuts chords, each named by its arc and knot; returns the balls that see them, ascending.
@@ -106,7 +118,7 @@ class Builder {
       points += patch.inside.size();
       faces += patch.triangles.size();
     }
-    index_of(points, "vertices of the mesh");
+    index_of(points, "vertices of a mesh");
     vertices.reserve(points);
     std::vector<Triangle> triangles;
     triangles.reserve(faces);
@@ -130,7 +142,8 @@ class Builder {
   const SimplicialComplex& complex_;
   ArcNet net_;
   const double error_;
-  const std::size_t most_;
+  const std::int64_t most_faces_;
+  std::atomic<std::int64_t> faces_{0};  // of this round
   Monitor& monitor_;
   std::vector<SpherePatch> patches_;  // by ball
 };
@@ -138,11 +151,17 @@ class Builder {
 }  // namespace
 
 std::optional<ExactMesh> exact_mesh(const PowerDiagram& diagram, const SimplicialComplex& complex,
-                                    double error, double extent, std::size_t most, Monitor& monitor) {
+                                    double error, double extent, std::int64_t most_faces,
+                                    Monitor& monitor) {
   PartMonitor netting(monitor, 0, 0.2), patching(monitor, 0.2, 1);
   std::optional<ArcNet> net = ArcNet::of(diagram, complex, error, extent, netting);
-  if (!net || net->points().size() > most) return {};
-  return Builder(complex, *std::move(net), error, most, patching).run();
+  if (!net) return {};
+  return Builder(complex, *std::move(net), error, most_faces, patching).run();
+}
+
+InputError too_many_faces(std::int64_t most) {
+  return {"a mesh as near as was asked for has more than " + std::to_string(most) + " faces",
+          "allow a larger error or more faces"};
 }
 
 }  // namespace ballflow::geometry

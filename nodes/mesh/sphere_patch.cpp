@@ -13,6 +13,7 @@
 #include <tuple>
 
 #include "base/circle.hpp"
+#include "power/union_vertices.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -274,9 +275,19 @@ class Patch {
     }
   }
 
+  /// The corners of a face in the order of their numbers: what is computed from them then does not depend on where
+  /// the triangulation begins, and that of the mirror image is mirrored.
+  static std::array<int, 3> in_order(Face f) {
+    std::array<int, 3> k{0, 1, 2};
+    std::sort(k.begin(), k.end(), [&](int p, int q) { return f->vertex(p)->info() < f->vertex(q)->info(); });
+    return k;
+  }
+
   Measure measure(Face f) const {
-    const Vec3 a = position(f, 0), b = position(f, 1), c = position(f, 2), o = map_.c;
-    const Vec3 n = cross(c - a, b - a);  // outwards
+    const std::array<int, 3> k = in_order(f);
+    const Vec3 a = position(f, k[0]), b = position(f, k[1]), c = position(f, k[2]), o = map_.c;
+    const bool turned = (k[1] - k[0] + 3) % 3 == 1;  // counter-clockwise in the plane is clockwise from outside
+    const Vec3 n = turned ? -cross(b - a, c - a) : cross(b - a, c - a);  // outwards
     const double nn = squared_length(n), r = map_.r;
     // The point of the triangle next to the center is that below it, or the middle of the longest edge.
     std::array<double, 3> l{squared_distance(b, c), squared_distance(c, a), squared_distance(a, b)};
@@ -285,9 +296,10 @@ class Patch {
     Measure m{q / (r + std::sqrt(std::max(0.0, r * r - q))), false};
     if (nn > 0 && dot(n, a - o) >= 0.3 * r * std::sqrt(nn)) return m;
     m.steep = true;
-    for (const auto& [p, q2] : {std::pair(0, 1), std::pair(1, 2), std::pair(2, 0)}) {
-      if (cdt_.is_constrained({f, 3 - p - q2})) continue;
-      m.error = std::max(m.error, distance_to_triangle(middle_of(f, p, q2), a, b, c));
+    for (const int opposite : k) {
+      if (cdt_.is_constrained({f, opposite})) continue;
+      const Vec3 middle = middle_of(f, Triangulation::ccw(opposite), Triangulation::cw(opposite));
+      m.error = std::max(m.error, distance_to_triangle(middle, a, b, c));
     }
     m.error = std::max(m.error, distance_to_triangle(middle_of(f), a, b, c));
     return m;
@@ -299,8 +311,7 @@ class Patch {
     return {(a.x() + b.x()) / 2, (a.y() + b.y()) / 2};
   }
   Point middle_in_plane(Face f) const {
-    std::array<int, 3> k{0, 1, 2};
-    std::sort(k.begin(), k.end(), [&](int p, int q) { return f->vertex(p)->info() < f->vertex(q)->info(); });
+    const std::array<int, 3> k = in_order(f);
     const Point &a = f->vertex(k[0])->point(), &b = f->vertex(k[1])->point(), &c = f->vertex(k[2])->point();
     return {((a.x() + b.x()) + c.x()) / 3, ((a.y() + b.y()) + c.y()) / 3};
   }
@@ -322,9 +333,10 @@ class Patch {
     if (measured.steep) {
       Wish best = wish_at(f, middle_in_plane(f), measured.error);
       double most = distance_to(f, best.position);
-      for (const auto& [p, q] : {std::pair(0, 1), std::pair(1, 2), std::pair(2, 0)}) {
-        if (cdt_.is_constrained({f, 3 - p - q})) continue;
-        const Wish w = wish_at(f, middle_in_plane(f, p, q), measured.error);
+      for (const int opposite : in_order(f)) {
+        if (cdt_.is_constrained({f, opposite})) continue;
+        const Wish w = wish_at(
+            f, middle_in_plane(f, Triangulation::ccw(opposite), Triangulation::cw(opposite)), measured.error);
         const double d = distance_to(f, w.position);
         if (d > most) {
           most = d;
@@ -333,8 +345,7 @@ class Patch {
       }
       return best;
     }
-    std::array<int, 3> k{0, 1, 2};
-    std::sort(k.begin(), k.end(), [&](int p, int q) { return f->vertex(p)->info() < f->vertex(q)->info(); });
+    const std::array<int, 3> k = in_order(f);
     const Vec3 a = position(f, k[0]), b = position(f, k[1]), c = position(f, k[2]);
     Vec3 n = cross(b - a, c - a);
     if (dot(n, a - map_.c) < 0) n = -n;
@@ -357,7 +368,8 @@ class Patch {
     return wish_at(f, middle_in_plane(f), measured.error);
   }
   double distance_to(Face f, Vec3 p) const {
-    return distance_to_triangle(p, position(f, 0), position(f, 1), position(f, 2));
+    const std::array<int, 3> k = in_order(f);
+    return distance_to_triangle(p, position(f, k[0]), position(f, k[1]), position(f, k[2]));
   }
   Wish wish_at(Face f, const Point& p, double error) const {
     return {error, corners(f), p, map_.sphere(p), f};
@@ -381,6 +393,8 @@ class Patch {
     std::vector<Vec3> directions{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     for (int k = 0; k < 8; ++k)
       directions.push_back({(k & 1) != 0 ? s : -s, (k & 2) != 0 ? s : -s, (k & 4) != 0 ? s : -s});
+    std::sort(directions.begin(), directions.end(),
+              [&](Vec3 a, Vec3 b) { return before(map_.c + map_.r * a, map_.c + map_.r * b); });
     for (const Vec3 d : directions) {
       const Vec3 p = map_.c + map_.r * d;
       if (dot(d, map_.up) > 0.99) continue;
@@ -484,10 +498,10 @@ SpherePatch sphere_patch(const ArcNet& net, std::int32_t ball, Vec3 center, doub
   return Patch(net, ball, Projection(center, radius, pole), error, most, monitor).run();
 }
 
-SpherePatch whole_sphere(Vec3 center, double radius, double error, std::size_t most) {
+SpherePatch whole_sphere(Vec3 center, double radius, double error) {
   SpherePatch result;
-  for (std::int32_t n = 1;; ++n) {
-    if (static_cast<std::size_t>(4 * n) * at(n) > most) return result;
+  // Not even equilateral triangles are enough for a smaller n.
+  for (auto n = std::max(1, static_cast<std::int32_t>(std::sqrt(0.6 * radius / error)));; ++n) {
     // Vertices of the octahedron |i| + |j| + |k| = n, by (i, j) and the sign of k.
     result.inside.clear();
     result.triangles.clear();
@@ -506,7 +520,8 @@ SpherePatch whole_sphere(Vec3 center, double radius, double error, std::size_t m
           }
           // With sines, equal steps along the edges of the octahedron are equal angles.
           const auto sine = [n](std::int32_t of) {
-            return on_circle(static_cast<double>(of) / static_cast<double>(4 * n))[1];
+            const double s = on_circle(static_cast<double>(std::abs(of)) / static_cast<double>(4 * n))[1];
+            return of < 0 ? -s : s;
           };
           const Vec3 d{sine(i), sine(j), sine(below == 1 ? -k : k)};
           slot(i, j)[at(below)] = static_cast<std::int32_t>(result.inside.size());

@@ -41,6 +41,6 @@ SpherePatch sphere_patch(const ArcNet& net, std::int32_t ball, Vec3 center, doub
                          double error, std::size_t most, Monitor& monitor);
 
 /// A whole sphere: the faces of an octahedron, each split in n x n triangles.
-SpherePatch whole_sphere(Vec3 center, double radius, double error, std::size_t most);
+SpherePatch whole_sphere(Vec3 center, double radius, double error);
 
 }  // namespace ballflow::geometry
