@@ -47,7 +47,8 @@ constexpr std::size_t most_corners = std::size_t{1} << 25;
 Balls grown(const Balls& balls, double most) {
   std::vector<double> radii;
   radii.reserve(balls.size());
-  for (std::size_t i = 0; i < balls.size(); ++i) radii.push_back(std::max(0.0, balls.radii[i] + most * Random(i).unit()));
+  for (std::size_t i = 0; i < balls.size(); ++i)
+    radii.push_back(std::max(0.0, balls.radii[i] + most * Random(i).unit()));
   return {balls.centers, std::move(radii), {}, {}};
 }
 
@@ -67,10 +68,11 @@ class Mesher {
     if (!(extent_ > 0))
       throw InputError("the union of the balls is a single point, which has no surface",
                        "give the ball a radius, or leave it out");
-    if (options_.method == BallMeshMethod::grid || !exact()) grid();
-    if (options_.self_intersections) {
-      result_.report.self_intersections = static_cast<std::int64_t>(
-          self_intersections(result_.mesh, static_cast<std::size_t>(-1), monitor_).pairs.size());
+    if (options_.method == BallMeshMethod::exact && exact()) {
+      if (options_.self_intersections) count_self_intersections();
+    } else {
+      grid();
+      result_.report.self_intersections = 0;
     }
     return std::move(result_);
   }
@@ -96,8 +98,8 @@ class Mesher {
     const Looked given = look_at(0, first);
     result_.report.euler_given = given.complex.euler_characteristic();
     if (made_from(given, first)) return true;
-    // Growth joins balls that touch, as they are in the complex. But it joins others too where balls were grown
-    // before until they all but touch; there radii that shrink keep the topology.
+    // Growth joins balls that touch, as they are in the complex. But it joins others too where balls were
+    // grown before until they all but touch; there radii that shrink keep the topology.
     std::vector<double> growths;
     for (const int bits : {34, 30, 25, 20}) {
       const double growth = std::ldexp(extent_, -bits);
@@ -107,15 +109,14 @@ class Mesher {
         if (looked.complex.betti == given.complex.betti && made_from(looked, others)) return true;
       }
     }
-    return std::any_of(growths.begin(), growths.end(), [&](double growth) {
-      return made_from(look_at(growth, others), others);
-    });
+    return std::any_of(growths.begin(), growths.end(),
+                       [&](double growth) { return made_from(look_at(growth, others), others); });
   }
 
   bool made_from(const Looked& looked, Monitor& monitor) {
     MeshReport& report = result_.report;
-    std::optional<ExactMesh> mesh = exact_mesh(looked.diagram, looked.complex, report.error_asked, extent_,
-                                               options_.most_faces, monitor);
+    std::optional<ExactMesh> mesh =
+        exact_mesh(looked.diagram, looked.complex, report.error_asked, extent_, options_.most_faces, monitor);
     if (!mesh) return false;
     result_.mesh = std::move(mesh->mesh);
     report.made_by = static_cast<std::uint8_t>(looked.growth != 0 ? MeshedBy::exact_grown : MeshedBy::exact);
@@ -136,8 +137,8 @@ class Mesher {
     report.set_union(betti);
     report.made_by = static_cast<std::uint8_t>(MeshedBy::grid);
     report.growth = 0;
-    // Thin parts want smaller cells, but in the bottom of sharp notches there are bubbles at every size: two rounds
-    // without progress are enough.
+    // Thin parts want smaller cells, but in the bottom of sharp notches there are bubbles at every size: two
+    // rounds without progress are enough.
     std::optional<BallMesh> best;
     double cell = 2.5 * report.error_asked;
     for (std::int64_t round = 0, in_vain = 0; in_vain < 2; ++round) {
@@ -163,7 +164,9 @@ class Mesher {
         in_vain = 0;
         best = result_;
       }
-      cell *= report.error > report.error_asked ? std::clamp(0.9 * report.error_asked / report.error, 0.5, 0.8) : 0.7;
+      cell *= report.error > report.error_asked
+                  ? std::clamp(0.9 * report.error_asked / report.error, 0.5, 0.8)
+                  : 0.7;
     }
     if (best) result_ = *std::move(best);
   }
@@ -174,6 +177,11 @@ class Mesher {
     };
     if (a.error > a.error_asked || b.error > b.error_asked) return a.error < b.error;
     return off(a) < off(b);
+  }
+
+  void count_self_intersections() {
+    const SelfIntersections found = self_intersections(result_.mesh, static_cast<std::size_t>(-1), monitor_);
+    result_.report.self_intersections = static_cast<std::int64_t>(found.pairs.size());
   }
 
   void describe() {

@@ -28,7 +28,7 @@ struct BallMeshOptions {
   BallMeshMethod method = BallMeshMethod::exact;
   double error = 0.2;  // % of the longest edge of the bounding box of the balls: distance from the boundary
   std::int64_t most_faces = 20'000'000;  // a mesh of more is refused
-  bool self_intersections = false;       // count them
+  bool self_intersections = true;        // count them
 };
 
 struct BallMesh {
@@ -40,16 +40,19 @@ struct BallMesh {
 /// seen counter-clockwise from outside the solid.
 /// - Accepts no ball (an empty mesh), nested, equal, tangent, disjoint balls, radius 0, and polar balls of
 ///   which many pass through one point.
-/// - Balls in general position are meshed as they are. Where rounding would decide, every radius grows by its
-/// own
-///   amount, by at most 1e-6 of the longest edge of the bounding box; so balls that touch are joined, from
-///   outside or inside. report.growth says by how much, report.euler_meshed what the topology of the grown
-///   balls is.
+/// - Balls in general position are meshed as they are. Where rounding would decide, every radius changes by
+/// its
+///   own amount, of 2^-34 to 2^-20 of the longest edge of the bounding box at most: it grows where that keeps
+///   the Betti numbers, so balls that touch are joined, from outside or inside; else it shrinks where that
+///   does; else it grows. report.growth says by how much, report.euler_meshed what the topology of the
+///   changed balls is.
 /// - The mesh depends on the set of balls, not on their order; that of mirrored balls is mirrored, and that
 /// of
 ///   balls twice as large is twice as large, in general position. It does not depend on the number of
 ///   threads.
-/// - Patches of thin parts may cross each other: report.self_intersections.
+/// - Patches of thin parts may cross each other: report.self_intersections. Triangles of a grid lie in
+/// different
+///   tetrahedra and do not cross.
 /// - Throws InputError for balls that break their invariants, a single point, an error that is not positive,
 /// and
 ///   when there would be more faces than asked for.

@@ -22,7 +22,8 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 class Builder {
  public:
-  Builder(const SimplicialComplex& complex, ArcNet net, double error, std::int64_t most_faces, Monitor& monitor)
+  Builder(const SimplicialComplex& complex, ArcNet net, double error, std::int64_t most_faces,
+          Monitor& monitor)
       : complex_(complex),
         net_(std::move(net)),
         error_(error),
@@ -151,8 +152,7 @@ class Builder {
 }  // namespace
 
 std::optional<ExactMesh> exact_mesh(const PowerDiagram& diagram, const SimplicialComplex& complex,
-                                    double error, double extent, std::int64_t most_faces,
-                                    Monitor& monitor) {
+                                    double error, double extent, std::int64_t most_faces, Monitor& monitor) {
   PartMonitor netting(monitor, 0, 0.2), patching(monitor, 0.2, 1);
   std::optional<ArcNet> net = ArcNet::of(diagram, complex, error, extent, netting);
   if (!net) return {};

@@ -17,11 +17,12 @@ namespace {
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-// The edges of the tetrahedra that begin at a corner, by the bits x = 1, y = 2, z = 4 of their step: 1 .. 7. Edges
-// 1, 2 and 3 stay in the layer of the corner.
+// The edges of the tetrahedra that begin at a corner, by the bits x = 1, y = 2, z = 4 of their step: 1 .. 7.
+// Edges 1, 2 and 3 stay in the layer of the corner.
 constexpr std::size_t edges_of_corner = 8;
 
-/// The six tetrahedra of a cell around its diagonal, positively oriented; corners by the bits of their place in it.
+/// The six tetrahedra of a cell around its diagonal, positively oriented; corners by the bits of their place
+/// in it.
 constexpr std::array<std::array<int, 4>, 6> tetrahedra{
     {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}}};
 
@@ -133,8 +134,8 @@ class Grid {
            ((bits & 4) != 0 ? at(count_[0]) * at(count_[1]) : 0U);
   }
 
-  /// Calls visit(x, y, bits) for the edges of a layer that the mesh crosses, in a fixed order. The last layer in
-  /// every direction is outside, so no edge leaves the grid there.
+  /// Calls visit(x, y, bits) for the edges of a layer that the mesh crosses, in a fixed order. The last layer
+  /// in every direction is outside, so no edge leaves the grid there.
   template <class Visit>
   void for_each_edge(std::int64_t z, const Visit& visit) const {
     if (z + 1 >= count_[2]) return;
@@ -154,13 +155,14 @@ class Grid {
 
   void number_edges() {
     std::vector<std::size_t> counts(at(count_[2]));
-    for_each_block(counts.size(), 4, monitor_, 0.3, 0.4, [&](std::size_t, std::size_t first, std::size_t last) {
-      for (std::size_t z = first; z < last; ++z) {
-        std::size_t count = 0;
-        for_each_edge(static_cast<std::int64_t>(z), [&](std::int64_t, std::int64_t, int) { ++count; });
-        counts[z] = count;
-      }
-    });
+    for_each_block(
+        counts.size(), 4, monitor_, 0.3, 0.4, [&](std::size_t, std::size_t first, std::size_t last) {
+          for (std::size_t z = first; z < last; ++z) {
+            std::size_t count = 0;
+            for_each_edge(static_cast<std::int64_t>(z), [&](std::int64_t, std::int64_t, int) { ++count; });
+            counts[z] = count;
+          }
+        });
     first_vertex_.assign(counts.size() + 1, 0);
     for (std::size_t z = 0; z < counts.size(); ++z) first_vertex_[z + 1] = first_vertex_[z] + counts[z];
     index_of(first_vertex_.back(), "vertices of the mesh");
@@ -211,24 +213,25 @@ class Grid {
 
   void place_vertices() {
     vertices_.resize(first_vertex_.back());
-    for_each_block(at(count_[2]), 4, monitor_, 0.4, 0.6, [&](std::size_t, std::size_t first, std::size_t last) {
-      Nearby balls;
-      for (std::size_t layer = first; layer < last; ++layer) {
-        const auto z = static_cast<std::int64_t>(layer);
-        std::size_t next = first_vertex_[layer];
-        for_each_edge(z, [&](std::int64_t x, std::int64_t y, int bits) {
-          const std::size_t a = slot(x, y, z), b = a + step(bits);
-          Vec3 p = position(x, y, z), q = position(x + (bits & 1), y + (bits >> 1 & 1), z + (bits >> 2));
-          std::int32_t ball = corners_[a].ball;
-          if (ball < 0) {
-            std::swap(p, q);
-            ball = corners_[b].ball;
+    for_each_block(
+        at(count_[2]), 4, monitor_, 0.4, 0.6, [&](std::size_t, std::size_t first, std::size_t last) {
+          Nearby balls;
+          for (std::size_t layer = first; layer < last; ++layer) {
+            const auto z = static_cast<std::int64_t>(layer);
+            std::size_t next = first_vertex_[layer];
+            for_each_edge(z, [&](std::int64_t x, std::int64_t y, int bits) {
+              const std::size_t a = slot(x, y, z), b = a + step(bits);
+              Vec3 p = position(x, y, z), q = position(x + (bits & 1), y + (bits >> 1 & 1), z + (bits >> 2));
+              std::int32_t ball = corners_[a].ball;
+              if (ball < 0) {
+                std::swap(p, q);
+                ball = corners_[b].ball;
+              }
+              nearby(x, y, z, bits, balls);
+              vertices_[next++] = p + exit(p, q, ball, balls) * (q - p);
+            });
           }
-          nearby(x, y, z, bits, balls);
-          vertices_[next++] = p + exit(p, q, ball, balls) * (q - p);
         });
-      }
-    });
   }
 
   /// The vertices on the edges of a layer, by corner and step; `none` elsewhere.

@@ -12,15 +12,16 @@ namespace ballflow::geometry {
 
 struct GridMesh {
   TriangleMesh mesh;
-  double error = 0;  // the largest distance from the boundary that was found, in the middle of triangles and edges
+  double error =
+      0;  // the largest distance from the boundary that was found, in the middle of triangles and edges
 };
 
-/// Every cell of a grid with edges of length `cell` is split in six tetrahedra around its diagonal (Kuhn), in the
-/// same way, so that neighbours agree; the mesh separates the corners in the union from those that are not. It is a
-/// closed, oriented manifold whatever corners these are. On an edge of a tetrahedron the vertex is where the way
-/// from the inner corner leaves the union of the balls near by. Thin parts and balls between corners are missed.
-/// Nothing when there would be more than `most_corners`, or more than `most_faces`. The same bytes for any number
-/// of threads. There is a ball, and one has a radius above 0.
+/// Every cell of a grid with edges of length `cell` is split in six tetrahedra around its diagonal (Kuhn), in
+/// the same way, so that neighbours agree; the mesh separates the corners in the union from those that are
+/// not. It is a closed, oriented manifold whatever corners these are. On an edge of a tetrahedron the vertex
+/// is where the way from the inner corner leaves the union of the balls near by. Thin parts and balls between
+/// corners are missed. Nothing when there would be more than `most_corners`, or more than `most_faces`. The
+/// same bytes for any number of threads. There is a ball, and one has a radius above 0.
 std::optional<GridMesh> grid_mesh(const Balls& balls, double cell, std::size_t most_corners,
                                   std::size_t most_faces, Monitor& monitor);
 

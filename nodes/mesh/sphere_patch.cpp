@@ -12,7 +12,7 @@
 #include <optional>
 #include <tuple>
 
-#include "base/circle.hpp"
+#include "mesh/sphere_geometry.hpp"
 #include "power/union_vertices.hpp"
 
 namespace ballflow::geometry {
@@ -32,46 +32,6 @@ using Point = Kernel::Point_2;
 using State = SpherePatch::State;
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
-  const Vec3 d = b - a;
-  const double l = squared_length(d);
-  const double t = l > 0 ? std::clamp(dot(p - a, d) / l, 0.0, 1.0) : 0.0;
-  return distance(p, a + t * d);
-}
-
-double distance_to_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
-  const Vec3 n = cross(b - a, c - a);
-  const bool over = dot(cross(b - a, n), p - a) <= 0 && dot(cross(c - b, n), p - b) <= 0 &&
-                    dot(cross(a - c, n), p - c) <= 0;
-  if (over && squared_length(n) > 0) return std::abs(dot(n, p - a)) / length(n);
-  return std::min({distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
-}
-
-/// A sphere and the plane it is projected to.
-struct Projection {
-  Projection(Vec3 center, double radius, Vec3 pole) : c(center), r(radius), up(pole) {
-    const double x = std::abs(up.x), y = std::abs(up.y), z = std::abs(up.z);
-    const Vec3 least = x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
-    const Vec3 v = least - dot(least, up) * up;
-    right = 1 / length(v) * v;
-    ahead = cross(up, right);
-  }
-  Point plane(Vec3 p) const {
-    const Vec3 n = p - c;
-    const double s = 1 / (length(n) - dot(n, up));
-    return {s * dot(n, right), s * dot(n, ahead)};
-  }
-  Vec3 sphere(const Point& p) const {
-    const double s = p.x() * p.x() + p.y() * p.y(), t = 1 / (s + 1);
-    const Vec3 n = ((2 * p.x() * t) * right + (2 * p.y() * t) * ahead) + ((s - 1) * t) * up;
-    return c + (r / length(n)) * n;
-  }
-
-  Vec3 c;
-  double r;
-  Vec3 up, right, ahead;
-};
 
 class Patch {
  public:
@@ -109,6 +69,13 @@ class Patch {
   }
 
  private:
+  /// Where a point of the sphere is in the plane, and the other way.
+  Point plane_point(Vec3 p) const {
+    const auto [x, y] = map_.plane(p);
+    return {x, y};
+  }
+  Vec3 sphere_point(const Point& p) const { return map_.sphere(p.x(), p.y()); }
+
   static constexpr std::int8_t unseen = 0, in = 1, out = 2;
 
   static Triangle key(Triangle t) {
@@ -170,7 +137,7 @@ class Patch {
       for (const std::int32_t v : {from, to}) {
         if (vertices[at(v)] != Vertex()) continue;
         const std::size_t before = cdt_.number_of_vertices();
-        vertices[at(v)] = cdt_.insert(map_.plane(points_[at(v)]), hint);
+        vertices[at(v)] = cdt_.insert(plane_point(points_[at(v)]), hint);
         if (cdt_.number_of_vertices() == before) return State::degenerate;
         vertices[at(v)]->info() = v;
         hint = vertices[at(v)]->face();
@@ -212,7 +179,7 @@ class Patch {
     };
     std::vector<Segment> segments;
     std::vector<Point> plane;
-    for (const Vec3 p : points_) plane.push_back(map_.plane(p));
+    for (const Vec3 p : points_) plane.push_back(plane_point(p));
     for (std::size_t k = 0; k < chords_.size(); ++k) {
       const Point &a = plane[at(ends_[k].first)], &b = plane[at(ends_[k].second)];
       segments.push_back({k, std::min(a.x(), b.x()), std::max(a.x(), b.x())});
@@ -275,8 +242,8 @@ class Patch {
     }
   }
 
-  /// The corners of a face in the order of their numbers: what is computed from them then does not depend on where
-  /// the triangulation begins, and that of the mirror image is mirrored.
+  /// The corners of a face in the order of their numbers: what is computed from them then does not depend on
+  /// where the triangulation begins, and that of the mirror image is mirrored.
   static std::array<int, 3> in_order(Face f) {
     std::array<int, 3> k{0, 1, 2};
     std::sort(k.begin(), k.end(), [&](int p, int q) { return f->vertex(p)->info() < f->vertex(q)->info(); });
@@ -286,7 +253,8 @@ class Patch {
   Measure measure(Face f) const {
     const std::array<int, 3> k = in_order(f);
     const Vec3 a = position(f, k[0]), b = position(f, k[1]), c = position(f, k[2]), o = map_.c;
-    const bool turned = (k[1] - k[0] + 3) % 3 == 1;  // counter-clockwise in the plane is clockwise from outside
+    const bool turned =
+        (k[1] - k[0] + 3) % 3 == 1;  // counter-clockwise in the plane is clockwise from outside
     const Vec3 n = turned ? -cross(b - a, c - a) : cross(b - a, c - a);  // outwards
     const double nn = squared_length(n), r = map_.r;
     // The point of the triangle next to the center is that below it, or the middle of the longest edge.
@@ -315,8 +283,8 @@ class Patch {
     const Point &a = f->vertex(k[0])->point(), &b = f->vertex(k[1])->point(), &c = f->vertex(k[2])->point();
     return {((a.x() + b.x()) + c.x()) / 3, ((a.y() + b.y()) + c.y()) / 3};
   }
-  Vec3 middle_of(Face f, int p, int q) const { return map_.sphere(middle_in_plane(f, p, q)); }
-  Vec3 middle_of(Face f) const { return map_.sphere(middle_in_plane(f)); }
+  Vec3 middle_of(Face f, int p, int q) const { return sphere_point(middle_in_plane(f, p, q)); }
+  Vec3 middle_of(Face f) const { return sphere_point(middle_in_plane(f)); }
 
   /// The face inside whose interior, or on whose inner edge, a point lies.
   std::optional<Face> face_inside(const Point& p, Face near) const {
@@ -350,7 +318,7 @@ class Patch {
     Vec3 n = cross(b - a, c - a);
     if (dot(n, a - map_.c) < 0) n = -n;
     const Vec3 top = map_.c + (map_.r / length(n)) * n;
-    const Point p = map_.plane(top);
+    const Point p = plane_point(top);
     if (const auto found = face_inside(p, f)) return Wish{measured.error, corners(f), p, top, *found};
     int longest = 0;
     double most = 0;
@@ -372,7 +340,7 @@ class Patch {
     return distance_to_triangle(p, position(f, k[0]), position(f, k[1]), position(f, k[2]));
   }
   Wish wish_at(Face f, const Point& p, double error) const {
-    return {error, corners(f), p, map_.sphere(p), f};
+    return {error, corners(f), p, sphere_point(p), f};
   }
   static Triangle corners(Face f) {
     return key({f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()});
@@ -398,7 +366,7 @@ class Patch {
     for (const Vec3 d : directions) {
       const Vec3 p = map_.c + map_.r * d;
       if (dot(d, map_.up) > 0.99) continue;
-      if (insert({0, {}, map_.plane(p), p, Face()}, cdt_.infinite_face())) flood();
+      if (insert({0, {}, plane_point(p), p, Face()}, cdt_.infinite_face())) flood();
     }
   }
 
@@ -496,69 +464,6 @@ class Patch {
 SpherePatch sphere_patch(const ArcNet& net, std::int32_t ball, Vec3 center, double radius, Vec3 pole,
                          double error, std::size_t most, Monitor& monitor) {
   return Patch(net, ball, Projection(center, radius, pole), error, most, monitor).run();
-}
-
-SpherePatch whole_sphere(Vec3 center, double radius, double error) {
-  SpherePatch result;
-  // Not even equilateral triangles are enough for a smaller n.
-  for (auto n = std::max(1, static_cast<std::int32_t>(std::sqrt(0.6 * radius / error)));; ++n) {
-    // Vertices of the octahedron |i| + |j| + |k| = n, by (i, j) and the sign of k.
-    result.inside.clear();
-    result.triangles.clear();
-    std::vector<std::array<std::int32_t, 2>> index(at((2 * n + 1) * (2 * n + 1)), {-1, -1});
-    const auto slot = [&](std::int32_t i, std::int32_t j) -> auto& {
-      return index[at((i + n) * (2 * n + 1) + j + n)];
-    };
-    for (std::int32_t i = -n; i <= n; ++i) {
-      for (std::int32_t j = -n; j <= n; ++j) {
-        const std::int32_t k = n - std::abs(i) - std::abs(j);
-        if (k < 0) continue;
-        for (const int below : {0, 1}) {
-          if (k == 0 && below == 1) {
-            slot(i, j)[1] = slot(i, j)[0];
-            continue;
-          }
-          // With sines, equal steps along the edges of the octahedron are equal angles.
-          const auto sine = [n](std::int32_t of) {
-            const double s = on_circle(static_cast<double>(std::abs(of)) / static_cast<double>(4 * n))[1];
-            return of < 0 ? -s : s;
-          };
-          const Vec3 d{sine(i), sine(j), sine(below == 1 ? -k : k)};
-          slot(i, j)[at(below)] = static_cast<std::int32_t>(result.inside.size());
-          result.inside.push_back(center + (radius / length(d)) * d);
-        }
-      }
-    }
-    const auto vertex = [&](std::int32_t i, std::int32_t j, std::int32_t k) {
-      return -1 - slot(i, j)[k < 0 ? 1 : 0];
-    };
-    for (int octant = 0; octant < 8; ++octant) {
-      const std::int32_t sx = (octant & 1) != 0 ? -1 : 1, sy = (octant & 2) != 0 ? -1 : 1,
-                         sz = (octant & 4) != 0 ? -1 : 1;
-      const auto corner = [&](std::int32_t i, std::int32_t j) {
-        return vertex(sx * i, sy * j, sz * (n - i - j));
-      };
-      const auto add = [&](std::int32_t a, std::int32_t b, std::int32_t c) {
-        if (sx * sy * sz < 0) std::swap(b, c);
-        result.triangles.push_back({a, b, c});
-      };
-      for (std::int32_t i = 0; i < n; ++i) {
-        for (std::int32_t j = 0; i + j < n; ++j) {
-          add(corner(i, j), corner(i + 1, j), corner(i, j + 1));
-          if (i + j + 2 <= n) add(corner(i + 1, j + 1), corner(i, j + 1), corner(i + 1, j));
-        }
-      }
-    }
-    result.error = 0;
-    for (const Triangle& t : result.triangles) {
-      const Vec3 a = result.inside[at(-1 - t[0])], b = result.inside[at(-1 - t[1])],
-                 c = result.inside[at(-1 - t[2])];
-      result.error = std::max(result.error, radius - distance_to_triangle(center, a, b, c));
-    }
-    if (result.error <= error) break;
-  }
-  result.state = State::made;
-  return result;
 }
 
 }  // namespace ballflow::geometry

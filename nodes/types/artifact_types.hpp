@@ -17,6 +17,7 @@
 #include "types/local_feature_size.hpp"
 #include "types/mass_properties.hpp"
 #include "types/medial_axis.hpp"
+#include "types/mesh_report.hpp"
 #include "types/minkowski_report.hpp"
 #include "types/point_set.hpp"
 #include "types/pole_set.hpp"

@@ -10,7 +10,7 @@ std::string_view in_words(MeshedBy how) {
     case MeshedBy::exact:
       return "exact";
     case MeshedBy::exact_grown:
-      return "exact, of balls that grew";
+      return "exact, of changed radii";
     default:
       return "grid";
   }
@@ -29,6 +29,10 @@ std::string what_differs(const MeshReport& r) {
   if (r.euler != 2 * r.euler_meshed) {
     add("the Euler characteristic of the mesh is " + std::to_string(r.euler) +
         ", that of the boundary of the union " + std::to_string(2 * r.euler_meshed));
+  }
+  if (r.euler_meshed != r.euler_given) {
+    add("the Euler characteristic of the union is " + std::to_string(r.euler_given) + " and became " +
+        std::to_string(r.euler_meshed) + " when radii were changed so that nothing is a tie");
   }
   if (r.error > r.error_asked) {
     add("the mesh is " + std::to_string(r.error) + " off, " + std::to_string(r.error_asked) +

@@ -10,9 +10,10 @@ namespace ballflow::geometry {
 
 /// How a mesh was made in the end.
 enum class MeshedBy : std::uint8_t {
-  exact = 0,        // from the power diagram of the balls
-  exact_grown = 1,  // from that of balls that grew a little, because the balls are not in general position
-  grid = 2,         // from cells of a grid
+  exact = 0,  // from the power diagram of the balls
+  exact_grown =
+      1,     // from that of balls that grew or shrank a little, because rounding would decide otherwise
+  grid = 2,  // from cells of a grid
 };
 std::string_view in_words(MeshedBy how);
 
@@ -40,7 +41,8 @@ struct MeshReport {
   }
   /// The boundary of a solid has twice its Euler characteristic.
   bool right_topology() const {
-    return closed != 0 && manifold != 0 && oriented != 0 && components == surfaces && euler == 2 * euler_meshed;
+    return closed != 0 && manifold != 0 && oriented != 0 && components == surfaces &&
+           euler == 2 * euler_meshed;
   }
 };
 

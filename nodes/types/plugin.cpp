@@ -10,3 +10,6 @@ BALLFLOW_PLUGIN("types", "0.1.0", ballflow::node_entries<>(),
                                         LocalFeatureSize, MassProperties, MedialAxis, MinkowskiReport,
                                         PointSet, PoleSet, PowerDiagram, Refinement, SimplicialComplex,
                                         SurfaceReport, TopologyCheck, TopologyTable, TriangleMesh>()))
+                                        LocalFeatureSize, MassProperties, MedialAxis, MeshReport,
+                                        MinkowskiReport, PointSet, PoleSet, PowerDiagram, Refinement,
+                                        SimplicialComplex, TopologyCheck, TopologyTable, TriangleMesh>()))

@@ -16,6 +16,7 @@ struct Bisection;
 struct CoverCheck;
 struct Comparison;
 struct MassProperties;
+struct MeshReport;
 struct MinkowskiReport;
 struct Refinement;
 struct SimplicialComplex;
@@ -80,6 +81,11 @@ struct TypeOf<geometry::Comparison> {
 template <>
 struct TypeOf<geometry::MassProperties> {
   static void declare(TypeDecl<geometry::MassProperties>& d);
+};
+
+template <>
+struct TypeOf<geometry::MeshReport> {
+  static void declare(TypeDecl<geometry::MeshReport>& d);
 };
 
 template <>

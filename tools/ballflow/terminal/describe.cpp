@@ -104,6 +104,16 @@ std::string minkowski(const Json& s) {
   return text;
 }
 
+std::string mesh_report(const Json& s) {
+  std::string text = counted(s, "faces", "face") + ", " + s.at("made_by").get<std::string>() + ", error " +
+                     rounded(s, "error") + " (asked for " + rounded(s, "error_asked") +
+                     "), Euler characteristic " + number(s, "euler");
+  if (s.at("self_intersections").is_number() && s.at("self_intersections") != 0)
+    text += ", " + counted(s, "self_intersections", "self-intersection");
+  if (s.at("differs").is_string()) text += ", NOT as asked: " + s.at("differs").get<std::string>();
+  return text;
+}
+
 std::string refinement(const Json& s) {
   if (!s.at("refined").get<bool>()) return "points as they came";
   const bool known = !s.at("wanted").is_null() || !s.at("cells").is_null();
@@ -188,6 +198,7 @@ std::string describe(const OutputEntry& output) {
                 " to " + rounded(s, "max_pole_distance") + " away";
        }},
       {"MinkowskiReport", minkowski},
+      {"MeshReport", mesh_report},
       {"MassProperties",
        [](const Json& s) {
          std::string text = "volume " + rounded(s, "volume");
