@@ -115,8 +115,10 @@ class Mesher {
 
   bool made_from(const Looked& looked, Monitor& monitor) {
     MeshReport& report = result_.report;
+    if (!(report.error_asked > 2 * std::abs(looked.growth))) return false;
     std::optional<ExactMesh> mesh =
-        exact_mesh(looked.diagram, looked.complex, report.error_asked, extent_, options_.most_faces, monitor);
+        exact_mesh(looked.diagram, looked.complex, 0.98 * report.error_asked - std::abs(looked.growth),
+                   extent_, options_.most_faces, monitor);
     if (!mesh) return false;
     result_.mesh = std::move(mesh->mesh);
     report.made_by = static_cast<std::uint8_t>(looked.growth != 0 ? MeshedBy::exact_grown : MeshedBy::exact);

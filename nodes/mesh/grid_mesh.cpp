@@ -343,7 +343,11 @@ class Grid {
       if (u > v) continue;  // every edge is in two triangles, once in each direction
       most = std::max(most, std::abs(depth(0.5 * (p + vertices_[at(v)]), balls)));
     }
-    return std::max(most, std::abs(depth((1.0 / 3) * sum, balls)));
+    // In the middle, and half way from there to the corners.
+    most = std::max(most, std::abs(depth((1.0 / 3) * sum, balls)));
+    for (const std::int32_t v : t)
+      most = std::max(most, std::abs(depth(0.5 * vertices_[at(v)] + (1.0 / 6) * sum, balls)));
+    return most;
   }
   /// How deep p is in the union; a guess by the balls near by makes the search short.
   double depth(Vec3 p, const Nearby& balls) const {

@@ -12,6 +12,7 @@
 #include <optional>
 #include <tuple>
 
+#include "mesh/crossings.hpp"
 #include "mesh/sphere_geometry.hpp"
 #include "power/union_vertices.hpp"
 
@@ -89,7 +90,6 @@ class Patch {
     std::array<std::int32_t, 3> corners{};
     Point place;
     Vec3 position;
-    Face near;
   };
   struct Measure {
     double error = 0;
@@ -173,45 +173,15 @@ class Patch {
 
   /// Names chords that cross, or touch where they have no common end: of each pair the longer one.
   State cut_crossings(SpherePatch& result) {
-    struct Segment {
-      std::size_t chord = 0;
-      double low = 0, high = 0;  // x
-    };
-    std::vector<Segment> segments;
-    std::vector<Point> plane;
-    for (const Vec3 p : points_) plane.push_back(plane_point(p));
-    for (std::size_t k = 0; k < chords_.size(); ++k) {
-      const Point &a = plane[at(ends_[k].first)], &b = plane[at(ends_[k].second)];
-      segments.push_back({k, std::min(a.x(), b.x()), std::max(a.x(), b.x())});
-    }
-    std::sort(segments.begin(), segments.end(), [](const Segment& a, const Segment& b) {
-      return std::pair(a.low, a.chord) < std::pair(b.low, b.chord);
-    });
-    Lookout look(monitor_);
-    for (std::size_t s = 0; s < segments.size(); ++s) {
-      for (std::size_t t = s + 1; t < segments.size() && segments[t].low <= segments[s].high; ++t) {
-        look(16);
-        const std::size_t a = segments[s].chord, b = segments[t].chord;
-        if (!cross_or_touch(plane, ends_[a], ends_[b])) continue;
-        const double ha = chords_[a].sagitta, hb = chords_[b].sagitta, most = std::max(ha, hb);
-        if (ha >= 0.7 * most) result.cut.emplace_back(chords_[a].arc, chords_[a].knot);
-        if (hb >= 0.7 * most) result.cut.emplace_back(chords_[b].arc, chords_[b].knot);
-      }
+    std::vector<std::array<double, 2>> plane;
+    plane.reserve(points_.size());
+    for (const Vec3 p : points_) plane.push_back(map_.plane(p));
+    for (const auto& [a, b] : crossings(plane, ends_, monitor_)) {
+      const double ha = chords_[a].sagitta, hb = chords_[b].sagitta, most = std::max(ha, hb);
+      if (ha >= 0.7 * most) result.cut.emplace_back(chords_[a].arc, chords_[a].knot);
+      if (hb >= 0.7 * most) result.cut.emplace_back(chords_[b].arc, chords_[b].knot);
     }
     return result.cut.empty() ? State::degenerate : State::crossing;
-  }
-  static bool cross_or_touch(const std::vector<Point>& plane, std::pair<std::int32_t, std::int32_t> a,
-                             std::pair<std::int32_t, std::int32_t> b) {
-    const Kernel::Segment_2 p(plane[at(a.first)], plane[at(a.second)]);
-    const Kernel::Segment_2 q(plane[at(b.first)], plane[at(b.second)]);
-    if (a.first == b.first || a.first == b.second || a.second == b.first || a.second == b.second) {
-      // They may only lie on each other.
-      const std::int32_t common = a.first == b.first || a.first == b.second ? a.first : a.second;
-      const Point &o = plane[at(common)], &u = plane[at(a.first == common ? a.second : a.first)],
-                  &v = plane[at(b.first == common ? b.second : b.first)];
-      return CGAL::collinear(o, u, v) && !CGAL::collinear_are_ordered_along_line(u, o, v);
-    }
-    return CGAL::do_intersect(p, q);
   }
 
   /// Names the chords that are farthest from their arcs: a small loop lies behind one of them.
@@ -264,52 +234,75 @@ class Patch {
     Measure m{q / (r + std::sqrt(std::max(0.0, r * r - q))), false};
     if (nn > 0 && dot(n, a - o) >= 0.3 * r * std::sqrt(nn)) return m;
     m.steep = true;
-    for (const int opposite : k) {
-      if (cdt_.is_constrained({f, opposite})) continue;
-      const Vec3 middle = middle_of(f, Triangulation::ccw(opposite), Triangulation::cw(opposite));
-      m.error = std::max(m.error, distance_to_triangle(middle, a, b, c));
-    }
-    m.error = std::max(m.error, distance_to_triangle(middle_of(f), a, b, c));
+    for (const Point& p : places_of(f))
+      m.error = std::max(m.error, distance_to_triangle(sphere_point(p), a, b, c));
     return m;
   }
 
   /// Planar points in the middle of a face or an edge, with the corners in the order of their numbers.
-  Point middle_in_plane(Face f, int p, int q) const {
-    const Point &a = f->vertex(p)->point(), &b = f->vertex(q)->point();
+  static Point middle_in_plane(Face f, int opposite) {
+    const Point &a = f->vertex(Triangulation::ccw(opposite))->point(),
+                &b = f->vertex(Triangulation::cw(opposite))->point();
     return {(a.x() + b.x()) / 2, (a.y() + b.y()) / 2};
   }
-  Point middle_in_plane(Face f) const {
+  static Point middle_in_plane(Face f) {
     const std::array<int, 3> k = in_order(f);
     const Point &a = f->vertex(k[0])->point(), &b = f->vertex(k[1])->point(), &c = f->vertex(k[2])->point();
     return {((a.x() + b.x()) + c.x()) / 3, ((a.y() + b.y()) + c.y()) / 3};
   }
-  Vec3 middle_of(Face f, int p, int q) const { return sphere_point(middle_in_plane(f, p, q)); }
-  Vec3 middle_of(Face f) const { return sphere_point(middle_in_plane(f)); }
+  /// The point of a face in the plane next to the origin: on the sphere it is that farthest from the pole,
+  /// where the middle of the face may be next to it. Nothing where it is on a chord or a corner.
+  std::optional<Point> far_point(Face f) const {
+    const Point origin(0, 0);
+    std::optional<Point> best;
+    double least = std::numeric_limits<double>::infinity();
+    bool contained = true;
+    for (const int opposite : in_order(f)) {
+      const Point &a = f->vertex(Triangulation::ccw(opposite))->point(),
+                  &b = f->vertex(Triangulation::cw(opposite))->point();
+      contained = contained && CGAL::orientation(a, b, origin) != CGAL::RIGHT_TURN;
+      const double x = b.x() - a.x(), y = b.y() - a.y(), l = x * x + y * y;
+      const double t = l > 0 ? -(a.x() * x + a.y() * y) / l : 0;
+      const bool inner = t > 0.01 && t < 0.99;
+      const double px = a.x() + std::clamp(t, 0.0, 1.0) * x, py = a.y() + std::clamp(t, 0.0, 1.0) * y;
+      if (px * px + py * py >= least) continue;
+      least = px * px + py * py;
+      best.reset();
+      if (inner && !cdt_.is_constrained({f, opposite})) best = Point(px, py);
+    }
+    return contained ? origin : best;
+  }
+  /// Places in a face where the sphere may be far from the triangle, when it does not lie below it.
+  std::vector<Point> places_of(Face f) const {
+    std::vector<Point> places{middle_in_plane(f)};
+    for (const int opposite : in_order(f)) {
+      if (!cdt_.is_constrained({f, opposite})) places.push_back(middle_in_plane(f, opposite));
+    }
+    if (const auto p = far_point(f)) places.push_back(*p);
+    return places;
+  }
 
-  /// The face inside whose interior, or on whose inner edge, a point lies.
-  std::optional<Face> face_inside(const Point& p, Face near) const {
+  /// The face in which p can be inserted: no chord and no point is there.
+  std::optional<Face> face_of(const Point& p, Face near) const {
     Triangulation::Locate_type type;
     int i = 0;
     const Face f = cdt_.locate(p, type, i, near);
-    if (type == Triangulation::FACE && f->info() == in) return f;
-    if (type == Triangulation::EDGE && !cdt_.is_constrained({f, i}) && f->info() == in) return f;
+    if (type == Triangulation::FACE || (type == Triangulation::EDGE && !cdt_.is_constrained({f, i})))
+      return f;
     return {};
   }
 
   /// Where a face is too far from the sphere, the point that helps.
-  std::optional<Wish> wish_of(Face f, const Measure& measured) const {
+  Wish wish_of(Face f, const Measure& measured) const {
     if (measured.steep) {
-      Wish best = wish_at(f, middle_in_plane(f), measured.error);
-      double most = distance_to(f, best.position);
-      for (const int opposite : in_order(f)) {
-        if (cdt_.is_constrained({f, opposite})) continue;
-        const Wish w = wish_at(
-            f, middle_in_plane(f, Triangulation::ccw(opposite), Triangulation::cw(opposite)), measured.error);
+      Wish best;
+      double most = -1;
+      for (const Point& p : places_of(f)) {
+        const Wish w = wish_at(f, p, measured.error);
         const double d = distance_to(f, w.position);
-        if (d > most) {
-          most = d;
-          best = w;
-        }
+        if (d <= most) continue;
+        most = d;
+        best = w;
       }
       return best;
     }
@@ -319,7 +312,8 @@ class Patch {
     if (dot(n, a - map_.c) < 0) n = -n;
     const Vec3 top = map_.c + (map_.r / length(n)) * n;
     const Point p = plane_point(top);
-    if (const auto found = face_inside(p, f)) return Wish{measured.error, corners(f), p, top, *found};
+    const auto found = face_of(p, f);
+    if (found && (*found)->info() == in) return {measured.error, corners(f), p, top};
     int longest = 0;
     double most = 0;
     for (const int i : k) {
@@ -330,30 +324,24 @@ class Patch {
         longest = i;
       }
     }
-    if (!cdt_.is_constrained({f, longest}))
-      return wish_at(f, middle_in_plane(f, Triangulation::ccw(longest), Triangulation::cw(longest)),
-                     measured.error);
-    return wish_at(f, middle_in_plane(f), measured.error);
+    const bool chord = cdt_.is_constrained({f, longest});
+    return wish_at(f, chord ? middle_in_plane(f) : middle_in_plane(f, longest), measured.error);
   }
   double distance_to(Face f, Vec3 p) const {
     const std::array<int, 3> k = in_order(f);
     return distance_to_triangle(p, position(f, k[0]), position(f, k[1]), position(f, k[2]));
   }
-  Wish wish_at(Face f, const Point& p, double error) const {
-    return {error, corners(f), p, sphere_point(p), f};
-  }
+  Wish wish_at(Face f, const Point& p, double error) const { return {error, corners(f), p, sphere_point(p)}; }
   static Triangle corners(Face f) {
     return key({f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()});
   }
 
-  bool insert(const Wish& wish, Face near) {
-    const auto found = face_inside(wish.place, near);
-    if (!found) return false;
-    const Vertex v = cdt_.insert(wish.place, *found);
+  Vertex insert(const Point& place, Vec3 position, Face face) {
+    const Vertex v = cdt_.insert(place, face);
     v->info() = static_cast<std::int32_t>(points_.size());
-    points_.push_back(wish.position);
+    points_.push_back(position);
     others_.push_back({-1, -1});
-    return true;
+    return v;
   }
 
   void insert_directions() {
@@ -366,7 +354,10 @@ class Patch {
     for (const Vec3 d : directions) {
       const Vec3 p = map_.c + map_.r * d;
       if (dot(d, map_.up) > 0.99) continue;
-      if (insert({0, {}, plane_point(p), p, Face()}, cdt_.infinite_face())) flood();
+      const auto found = face_of(plane_point(p), cdt_.infinite_face());
+      if (!found || (*found)->info() != in) continue;
+      insert(plane_point(p), p, *found);
+      flood();
     }
   }
 
@@ -390,19 +381,18 @@ class Patch {
           if (cdt_.is_constrained({f, i}) || !share(t[at(p)], t[at(q)])) continue;
           topological = true;
           if (t[at(p)] > t[at(q)]) continue;  // once for both faces
-          Wish w = wish_at(f, middle_in_plane(f, p, q), always);
+          Wish w = wish_at(f, middle_in_plane(f, i), always);
           w.corners = {t[at(p)], t[at(q)], -1};
           wishes.push_back(w);
         }
-        if (topological) continue;
-        if (share(t[0], t[1], t[2])) {
-          wishes.push_back(wish_at(f, middle_in_plane(f), always));
-          continue;
-        }
+        const bool shared = !topological && share(t[0], t[1], t[2]);
+        if (shared) wishes.push_back(wish_at(f, middle_in_plane(f), always));
+        if ((topological || shared) && !first) continue;
         const Measure m = measure(f);
         if (m.error <= error_) continue;
         steep = steep || m.steep;
-        if (const auto wish = wish_of(f, m)) wishes.push_back(*wish);
+        if (topological || shared) continue;
+        wishes.push_back(wish_of(f, m));
       }
       if (wishes.empty()) return true;
       if (first && steep) {
@@ -420,28 +410,14 @@ class Patch {
         const bool close = std::any_of(fresh.begin(), fresh.end(),
                                        [&](Vec3 p) { return squared_distance(p, wish.position) < apart; });
         if (close) continue;
-        if (!located_inside(wish.place, near)) {
-          if (fresh.empty() && &wish == &wishes.back()) return false;
-          continue;
-        }
-        const Vertex v = cdt_.insert(wish.place, near);
-        near = v->face();
-        v->info() = static_cast<std::int32_t>(points_.size());
-        points_.push_back(wish.position);
-        others_.push_back({-1, -1});
+        const auto found = face_of(wish.place, near);
+        if (!found) continue;
+        // Whether it is in the patch was looked at before: points inside of it change no chord.
+        near = insert(wish.place, wish.position, *found)->face();
         fresh.push_back(wish.position);
       }
       if (fresh.empty() || points_.size() - ids_.size() > most_) return false;
     }
-  }
-
-  /// Whether p can be inserted: no chord and no point is there. Whether it is in the patch was looked at
-  /// before; insertions inside of it change no chord.
-  bool located_inside(const Point& p, Face& near) const {
-    Triangulation::Locate_type type;
-    int i = 0;
-    near = cdt_.locate(p, type, i, near);
-    return type == Triangulation::FACE || (type == Triangulation::EDGE && !cdt_.is_constrained({near, i}));
   }
 
   const ArcNet& net_;

@@ -45,6 +45,10 @@ const std::vector<Case>& cases() {
       {"knot", "medial_axis", as_in_the_thesis({{"input", "shape:knot?n=8000"}}), 0},
       {"torus_hybrid", "medial_axis",
        as_in_the_thesis({{"input", "shape:torus?n=6000"}, {"strategy", "hybrid"}}), 0},
+      {"double_torus_mesh",
+       "ball_mesh",
+       {{"input", "shape:doubleTorus?n=2000"}, {"delta", "1"}},
+       kNoTopology},
       {"balls", "balls", {}, kNoTopology},  // a ring of balls and one ball apart: Betti 2 1 0
       {"minkowski_sum", "minkowski_sum",
        as_in_the_thesis({{"a", "shape:torus?n=2000"}, {"b", "shape:knot?n=3000&R=0.2"}}), kNoTopology},
