@@ -85,8 +85,11 @@ std::optional<ArcNet> ArcNet::of(const PowerDiagram& diagram, const SimplicialCo
   std::vector<ExposedSide> sides = exposed_sides(complex, diagram, monitor);
   ArcNet net;
   net.points_.reserve(4 * sides.size());
-  for (const ExposedSide& side : sides)
+  Lookout look(monitor);
+  for (const ExposedSide& side : sides) {
+    look(4096);
     net.add_point(boundary_vertex(complex, side), complex.triangles[at(side.triangle)]);
+  }
   // The two vertices of one triangle in an order that does not depend on which side is which.
   for (std::size_t s = 1; s < sides.size(); ++s) {
     if (sides[s].triangle != sides[s - 1].triangle || !before(net.points_[s], net.points_[s - 1])) continue;
@@ -97,7 +100,6 @@ std::optional<ArcNet> ArcNet::of(const PowerDiagram& diagram, const SimplicialCo
   const auto center = [&](std::int32_t ball) { return complex.centers[at(ball)]; };
   const auto weight = [&](std::int32_t ball) { return complex.weights[at(ball)]; };
 
-  Lookout look(monitor);
   for (const UnionArc& arc : found) {
     look(256);
     const auto [i, j] = complex.edges[at(arc.edge)];
@@ -153,7 +155,8 @@ std::optional<ArcNet> ArcNet::of(const PowerDiagram& diagram, const SimplicialCo
     net.arcs_.push_back(std::move(made));
   }
   // Arcs of an edge in an order that does not depend on the sense of turning.
-  std::sort(net.arcs_.begin(), net.arcs_.end(), [](const Arc& a, const Arc& b) {
+  std::sort(net.arcs_.begin(), net.arcs_.end(), [&look](const Arc& a, const Arc& b) {
+    look(16);
     return std::tuple(a.balls, a.knots.front().point, a.knots.back().point) <
            std::tuple(b.balls, b.knots.front().point, b.knots.back().point);
   });

@@ -101,7 +101,7 @@ class Mesher {
     // Growth joins balls that touch, as they are in the complex. But it joins others too where balls were
     // grown before until they all but touch; there radii that shrink keep the topology.
     std::vector<double> growths;
-    for (const int bits : {34, 30, 25, 20}) {
+    for (const int bits : {30, 20}) {
       const double growth = std::ldexp(extent_, -bits);
       growths.push_back(growth);
       for (const double g : {growth, -growth}) {
@@ -188,7 +188,7 @@ class Mesher {
 
   void describe() {
     MeshReport& report = result_.report;
-    const MeshTopology topology = mesh_topology(result_.mesh);
+    const MeshTopology topology = mesh_topology(result_.mesh, monitor_);
     report.vertices = topology.vertices;
     report.faces = topology.faces;
     report.components = topology.components;

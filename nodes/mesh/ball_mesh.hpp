@@ -42,7 +42,7 @@ struct BallMesh {
 ///   which many pass through one point.
 /// - Balls in general position are meshed as they are. Where rounding would decide, every radius changes by
 /// its
-///   own amount, of 2^-34 to 2^-20 of the longest edge of the bounding box at most: it grows where that keeps
+///   own amount, of 2^-30 or 2^-20 of the longest edge of the bounding box at most: it grows where that keeps
 ///   the Betti numbers, so balls that touch are joined, from outside or inside; else it shrinks where that
 ///   does; else it grows. report.growth says by how much, report.euler_meshed what the topology of the
 ///   changed balls is.

@@ -52,6 +52,7 @@ struct BallMesh {
         .at_most(100)
         .doc("how far the mesh may be from the boundary of the union");
     d.param("most_faces", &BallMesh::options, &BallMeshOptions::most_faces)
+        .unit("1")
         .at_least(1)
         .at_most(1'000'000'000)
         .doc("a mesh of more faces is refused");

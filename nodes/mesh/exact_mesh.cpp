@@ -44,10 +44,10 @@ class Builder {
     }
     for (std::int32_t round = 0; round <= most_rounds; ++round) {
       triangulate(waiting);
+      if (failed_) return {};
       std::vector<std::pair<std::int32_t, std::int32_t>> cut;
       for (const std::int32_t ball : waiting) {
         const SpherePatch& patch = patches_[at(ball)];
-        if (patch.state == SpherePatch::State::degenerate) return {};
         cut.insert(cut.end(), patch.cut.begin(), patch.cut.end());
       }
       if (cut.empty()) return assemble(round);
@@ -61,7 +61,9 @@ class Builder {
     faces_ = 0;
     for_each_block(balls.size(), 8, monitor_, 0, 0.9, [&](std::size_t, std::size_t first, std::size_t last) {
       for (std::size_t k = first; k < last; ++k) {
+        if (failed_) return;
         SpherePatch& patch = patches_[at(balls[k])] = patch_of(balls[k]);
+        if (patch.state == SpherePatch::State::degenerate) failed_ = true;
         faces_ += static_cast<std::int64_t>(patch.triangles.size());
         if (faces_ > most_faces_) throw too_many_faces(most_faces_);
       }
@@ -145,6 +147,7 @@ class Builder {
   const double error_;
   const std::int64_t most_faces_;
   std::atomic<std::int64_t> faces_{0};  // of this round
+  std::atomic<bool> failed_{false};
   Monitor& monitor_;
   std::vector<SpherePatch> patches_;  // by ball
 };

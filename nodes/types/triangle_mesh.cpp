@@ -26,8 +26,9 @@ bool degenerate(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2]
 
 }  // namespace
 
-MeshTopology mesh_topology(const TriangleMesh& mesh) {
+MeshTopology mesh_topology(const TriangleMesh& mesh, Monitor& monitor) {
   MeshTopology result;
+  Lookout look(monitor);
   const std::size_t n = mesh.vertices.size();
   const std::size_t m = mesh.triangles.size();
   result.vertices = static_cast<std::int64_t>(n);
@@ -38,6 +39,7 @@ MeshTopology mesh_topology(const TriangleMesh& mesh) {
   std::size_t degenerate_faces = 0;
   std::vector<std::uint32_t> begin(n + 1, 0);
   for (const Triangle& t : mesh.triangles) {
+    look(8);
     if (degenerate(t)) {
       ++degenerate_faces;
       continue;
@@ -50,6 +52,7 @@ MeshTopology mesh_topology(const TriangleMesh& mesh) {
   DisjointSets vertices(n);
   std::vector<bool> used(n, false);
   for (std::size_t f = 0; f < m; ++f) {
+    look(32);
     const Triangle& t = mesh.triangles[f];
     for (const Index v : t) used[static_cast<std::size_t>(v)] = true;
     vertices.join(t[0], t[1]);
@@ -71,6 +74,7 @@ MeshTopology mesh_topology(const TriangleMesh& mesh) {
   bool oriented = true;
   for (std::size_t v = 0; v < n; ++v) {
     const auto first = half_edges.begin() + begin[v], last = half_edges.begin() + begin[v + 1];
+    look(16 + 16 * static_cast<std::size_t>(last - first));
     std::sort(first, last, [](const HalfEdge& a, const HalfEdge& b) {
       return std::pair(a.larger, a.corner) < std::pair(b.larger, b.corner);
     });

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/array.hpp"
+#include "base/monitor.hpp"
 #include "base/vec3.hpp"
 
 namespace ballflow::geometry {
@@ -32,7 +33,7 @@ struct MeshTopology {
   std::int64_t nonmanifold_edges = 0;  // edges with more than two triangles
 };
 
-MeshTopology mesh_topology(const TriangleMesh& mesh);
+MeshTopology mesh_topology(const TriangleMesh& mesh, Monitor& monitor = no_monitor());
 
 /// Empty when every index is in range and every coordinate finite, else what is wrong and where.
 std::string broken_invariant(const TriangleMesh& mesh);
