@@ -234,8 +234,8 @@ class Patch {
     Measure m{q / (r + std::sqrt(std::max(0.0, r * r - q))), false};
     if (nn > 0 && dot(n, a - o) >= 0.3 * r * std::sqrt(nn)) return m;
     m.steep = true;
-    for (const Point& p : places_of(f))
-      m.error = std::max(m.error, distance_to_triangle(sphere_point(p), a, b, c));
+    for (const Point& p : places_of(f))  // between them it may be a little more
+      m.error = std::max(m.error, 1.1 * distance_to_triangle(sphere_point(p), a, b, c));
     return m;
   }
 
