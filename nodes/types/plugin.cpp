@@ -5,11 +5,9 @@
 
 using namespace ballflow::geometry;
 
-BALLFLOW_PLUGIN("types", "0.1.0", ballflow::node_entries<>(),
-                (ballflow::type_entries<Balls, Bisection, Comparison, CoverCheck, CoverState, Growth,
-                                        LocalFeatureSize, MassProperties, MedialAxis, MinkowskiReport,
-                                        PointSet, PoleSet, PowerDiagram, Refinement, SimplicialComplex,
-                                        SurfaceReport, TopologyCheck, TopologyTable, TriangleMesh>()))
-                                        LocalFeatureSize, MassProperties, MedialAxis, MeshReport,
-                                        MinkowskiReport, PointSet, PoleSet, PowerDiagram, Refinement,
-                                        SimplicialComplex, TopologyCheck, TopologyTable, TriangleMesh>()))
+BALLFLOW_PLUGIN(
+    "types", "0.1.0", ballflow::node_entries<>(),
+    (ballflow::type_entries<Balls, Bisection, Comparison, CoverCheck, CoverState, Growth, LocalFeatureSize,
+                            MassProperties, MedialAxis, MeshReport, MinkowskiReport, PointSet, PoleSet,
+                            PowerDiagram, Refinement, SimplicialComplex, SurfaceReport, TopologyCheck,
+                            TopologyTable, TriangleMesh>()))
