@@ -136,16 +136,6 @@ std::string surface(const Json& s) {
   return text;
 }
 
-std::string measure(const Json& s) {
-  std::string text = "volume " + rounded(s, "volume") + ", area " + rounded(s, "area");
-  if (s.contains("volume_error")) {
-    char percent[32];
-    std::snprintf(percent, sizeof percent, "%+.2f %%", 100 * s.at("volume_error").get<double>());
-    text += ", " + std::string(percent) + " of the solid's volume";
-  }
-  return text;
-}
-
 std::string axis(const Json& s) {
   return counted(s, "polygons", "polygon") + " in " + counted(s, "sheets", "sheet") + ", " +
          counted(s, "edges", "free edge") + ", Euler characteristic " + number(s, "euler_characteristic");
@@ -215,7 +205,6 @@ std::string describe(const OutputEntry& output) {
          return counted(s, "cells", "cell") + " of " + counted(s, "balls", "ball") + ", " +
                 number(s, "cells_in_complex") + " in the complex, " + number(s, "hidden") + " balls hidden";
        }},
-      {"MassProperties", measure},
       {"Refinement", refinement},
       {"SurfaceReport", surface},
       {"SimplicialComplex", complex},
