@@ -5,8 +5,8 @@
 
 #include <ctime>
 
+#include "document_fixture.hpp"
 #include "test_data.hpp"
-#include "toy_nodes.hpp"
 
 namespace ballflow {
 namespace {

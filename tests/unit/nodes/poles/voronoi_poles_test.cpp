@@ -103,7 +103,7 @@ TEST(voronoi_poles, of_a_cube_meet_in_its_center) {
   EXPECT_EQ(poles.radii[inside[0]], std::sqrt(3.0));
   EXPECT_EQ(defining_samples_of(poles, inside[0]), (std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 7}));
   for (const auto& pair : poles.sample_poles) {
-    EXPECT_EQ(poles.unbounded[at(pair[0])], 1);
+    EXPECT_EQ(poles.unbounded[index(pair[0])], 1);
     EXPECT_EQ(pair[1], static_cast<std::int32_t>(inside[0]));
   }
 }
@@ -143,8 +143,8 @@ TEST(voronoi_poles, of_a_lattice_are_the_centers_of_its_cells) {
 TEST(voronoi_poles, of_a_sphere_lie_at_its_center) {
   const PoleSet poles = poles_of(test::sphere(4).points());
   for (const auto& pair : poles.sample_poles) {
-    EXPECT_EQ(poles.unbounded[at(pair[0])], 1);
-    EXPECT_LT(length(poles.centers[at(pair[1])]), 1e-6);
+    EXPECT_EQ(poles.unbounded[index(pair[0])], 1);
+    EXPECT_LT(length(poles.centers[index(pair[1])]), 1e-6);
   }
 }
 
@@ -190,18 +190,19 @@ std::vector<BruteVertex> brute_force_vertices(const PointSet& sample) {
       for (std::int32_t c = b + 1; c < n; ++c) {
         for (std::int32_t d = c + 1; d < n; ++d) {
           const auto& p = doubles;
-          if (CGAL::coplanar(p[at(a)], p[at(b)], p[at(c)], p[at(d)])) continue;
+          if (CGAL::coplanar(p[index(a)], p[index(b)], p[index(c)], p[index(d)])) continue;
           std::vector<std::int32_t> on;
           bool empty = true;
           for (std::int32_t e = 0; e < n && empty; ++e) {
-            const auto side = CGAL::side_of_bounded_sphere(p[at(a)], p[at(b)], p[at(c)], p[at(d)], p[at(e)]);
+            const auto side =
+                CGAL::side_of_bounded_sphere(p[index(a)], p[index(b)], p[index(c)], p[index(d)], p[index(e)]);
             if (side == CGAL::ON_BOUNDED_SIDE) empty = false;
             if (side == CGAL::ON_BOUNDARY) on.push_back(e);
           }
           if (!empty || !seen.insert(on).second) continue;
           const Exact::Point_3 center =
-              CGAL::circumcenter(points[at(a)], points[at(b)], points[at(c)], points[at(d)]);
-          const Rational squared = CGAL::squared_distance(center, points[at(a)]);
+              CGAL::circumcenter(points[index(a)], points[index(b)], points[index(c)], points[index(d)]);
+          const Rational squared = CGAL::squared_distance(center, points[index(a)]);
           vertices.push_back(
               {{CGAL::to_double(center.x()), CGAL::to_double(center.y()), CGAL::to_double(center.z())},
                std::sqrt(CGAL::to_double(squared)),
@@ -278,7 +279,7 @@ void compare_with_brute_force(const PointSet& sample, int& compared) {
     };
     const std::vector<Vec3> normals = hull_normals(sample, s);
     if (!normals.empty()) {
-      EXPECT_EQ(poles.unbounded[at(pair[0])], 1) << "sample " << s << " is on the convex hull";
+      EXPECT_EQ(poles.unbounded[index(pair[0])], 1) << "sample " << s << " is on the convex hull";
       // Whatever the mean outward direction is: vertices well behind all supporting planes are behind.
       const double sure = farthest([&](const BruteVertex& v) {
         return std::all_of(normals.begin(), normals.end(),
@@ -286,22 +287,22 @@ void compare_with_brute_force(const PointSet& sample, int& compared) {
       });
       if (sure < 0) continue;
       ASSERT_GE(pair[1], 0);
-      EXPECT_EQ(poles.unbounded[at(pair[1])], 0);
-      EXPECT_GE(poles.radii[at(pair[1])], sure - 1e-9);
+      EXPECT_EQ(poles.unbounded[index(pair[1])], 0);
+      EXPECT_GE(poles.radii[index(pair[1])], sure - 1e-9);
       ++compared;
       continue;
     }
     if (!all_untouched) continue;
-    EXPECT_EQ(poles.unbounded[at(pair[0])], 0) << "sample " << s << " is inside the convex hull";
-    EXPECT_NEAR(poles.radii[at(pair[0])], farthest([](const BruteVertex&) { return true; }), 1e-9);
+    EXPECT_EQ(poles.unbounded[index(pair[0])], 0) << "sample " << s << " is inside the convex hull";
+    EXPECT_NEAR(poles.radii[index(pair[0])], farthest([](const BruteVertex&) { return true; }), 1e-9);
     ASSERT_GE(pair[1], 0);
-    const Vec3 outwards = poles.centers[at(pair[0])] - p;
+    const Vec3 outwards = poles.centers[index(pair[0])] - p;
     // Vertices at a right angle up to rounding may count or not.
     const double slack = 1e-9 * length(outwards);
     const double sure = farthest([&](const BruteVertex& v) { return dot(v.center - p, outwards) < -slack; });
     const double most = farthest([&](const BruteVertex& v) { return dot(v.center - p, outwards) < slack; });
-    EXPECT_GE(poles.radii[at(pair[1])], sure - 1e-9);
-    EXPECT_LE(poles.radii[at(pair[1])], most + 1e-9);
+    EXPECT_GE(poles.radii[index(pair[1])], sure - 1e-9);
+    EXPECT_LE(poles.radii[index(pair[1])], most + 1e-9);
     compared += 2;
   }
 }
@@ -323,7 +324,7 @@ void compare_candidates_with_brute_force(const PointSet& sample, int& compared) 
     for (const std::int32_t s : v.samples) {
       const Vec3 p = sample.points[index(s)];
       const auto& own = poles.sample_poles[index(s)];
-      const Vec3 first = poles.centers[at(own[0])] - p, second = poles.centers[at(own[1])] - p;
+      const Vec3 first = poles.centers[index(own[0])] - p, second = poles.centers[index(own[1])] - p;
       const double angle = std::acos(dot(first, second) / (length(first) * length(second)));
       const double behind = dot(v.center - p, first) / (length(v.center - p) * length(first));
       if (std::abs(std::cos(angle) + 0.75) < 1e-9 || std::abs(behind) < 1e-9) doubtful = true;
@@ -376,7 +377,7 @@ auto renamed(const PoleSet& poles, const std::vector<std::int32_t>& name) {
   for (std::size_t s = 0; s < pairs.size(); ++s) {
     for (std::size_t k = 0; k < 2; ++k) {
       const std::int32_t pole = poles.sample_poles[s][k];
-      pairs[at(name[s])][k] = pole < 0 ? Vec3{} : poles.centers[at(pole)];
+      pairs[index(name[s])][k] = pole < 0 ? Vec3{} : poles.centers[index(pole)];
     }
   }
   return std::pair(entries, pairs);
