@@ -81,24 +81,22 @@ class Facts {
   void others() {
     if (const OutputEntry* const surface = of_type("SurfaceReport"))
       facts_.push_back("surface: " + describe(*surface));
-    for (const char* type : {"Comparison", "MinkowskiReport", "Bisection"}) {
-      for (const char* type : {"Comparison", "MinkowskiReport", "MeshReport", "Bisection"}) {
-        if (const OutputEntry* const output = of_type(type)) facts_.push_back(describe(*output));
-      }
-      if (const OutputEntry* const mass = of_type("MassProperties")) facts_.push_back(describe(*mass));
-      if (const OutputEntry* const axis = of_type("MedialAxis"))
-        facts_.push_back("medial axis: " + describe(*axis));
+    for (const char* type : {"Comparison", "MinkowskiReport", "MeshReport", "Bisection"}) {
+      if (const OutputEntry* const output = of_type(type)) facts_.push_back(describe(*output));
     }
+    if (const OutputEntry* const mass = of_type("MassProperties")) facts_.push_back(describe(*mass));
+    if (const OutputEntry* const axis = of_type("MedialAxis"))
+      facts_.push_back("medial axis: " + describe(*axis));
+  }
 
-    const NamedOutputs& outputs_;
-    const Json& params_;
-    std::vector<std::string> facts_;
-  };
+  const NamedOutputs& outputs_;
+  const Json& params_;
+  std::vector<std::string> facts_;
+};
 
 }  // namespace
 
-std::string
-remedy_for(const std::string& warning, const Json& params) {
+std::string remedy_for(const std::string& warning, const Json& params) {
   const auto says = [&](const char* words) { return warning.find(words) != std::string::npos; };
   if (says("the mesh is open") || says("topology of the solid is unknown"))
     return "\"ballflow look FILE\" says what is wrong with the surface, where, and what closes it";
