@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -74,8 +75,8 @@ class Grid {
 
  private:
   struct Corner {
-    float power = 0;  // of the corner to the ball, divided by the squared edge of a cell: negative inside
-    std::int32_t ball = -1;
+    float power;        // of the corner to the ball, divided by the squared edge of a cell: negative inside
+    std::int32_t ball;  // or -1
   };
 
   std::size_t slot(std::int64_t x, std::int64_t y, std::int64_t z) const {
@@ -97,10 +98,15 @@ class Grid {
 
   /// Every corner learns to which ball it has the least power, if it is in the union.
   void fill() {
-    corners_.assign(at(count_[0]) * at(count_[1]) * at(count_[2]), {});
+    const std::size_t layer = at(count_[0]) * at(count_[1]);
+    corners_ = std::make_unique_for_overwrite<Corner[]>(layer * at(count_[2]));
     const double scale = 1 / (cell_ * cell_);
     for_each_block(at(count_[2]), 4, monitor_, 0, 0.3, [&](std::size_t, std::size_t first, std::size_t last) {
       Lookout look(monitor_);
+      for (std::size_t z = first; z < last; ++z) {
+        look(layer);
+        std::fill_n(corners_.get() + z * layer, layer, Corner{0, -1});
+      }
       for (std::size_t i = 0; i < balls_.size(); ++i) {
         look(4);
         const Vec3 c = balls_.centers[i];
@@ -115,7 +121,7 @@ class Grid {
             const double dy = coordinate(middle_.y, y, 1) - c.y, in_row = in_layer - dy * dy;
             if (in_row < 0) continue;
             const auto xs = range(c.x, middle_.x, std::sqrt(in_row), 0);
-            Corner* row = corners_.data() + slot(0, y, z);
+            Corner* row = corners_.get() + slot(0, y, z);
             look(at(std::max<std::int64_t>(0, xs.second - xs.first)));
             for (std::int64_t x = xs.first; x <= xs.second; ++x) {
               const double dx = coordinate(middle_.x, x, 0) - c.x;
@@ -266,7 +272,9 @@ class Grid {
     for (const Part& part : parts) faces += part.triangles.size();
     std::vector<Triangle> all;
     all.reserve(faces);
+    Lookout look(monitor_);
     for (Part& part : parts) {
+      look(16 * part.triangles.size());
       all.insert(all.end(), part.triangles.begin(), part.triangles.end());
       result.error = std::max(result.error, part.error);
     }
@@ -363,7 +371,7 @@ class Grid {
   BoxTree tree_;
   Vec3 middle_;                          // of the grid
   std::array<std::int64_t, 3> count_{};  // corners in each direction
-  std::vector<Corner> corners_;
+  std::unique_ptr<Corner[]> corners_;
   std::vector<std::size_t> first_vertex_;  // of a layer
   std::vector<Vec3> vertices_;
 };
