@@ -30,7 +30,8 @@ bool cross(std::span<const std::array<double, 2>> points, const Ends& a, const E
 }  // namespace
 
 std::vector<std::pair<std::size_t, std::size_t>> crossings(std::span<const std::array<double, 2>> points,
-                                                           std::span<const Ends> segments, Monitor& monitor) {
+                                                           std::span<const Ends> segments, std::size_t most,
+                                                           Monitor& monitor) {
   struct Range {
     std::size_t segment = 0;
     double low = 0, high = 0;  // x
@@ -51,7 +52,9 @@ std::vector<std::pair<std::size_t, std::size_t>> crossings(std::span<const std::
     for (std::size_t t = s + 1; t < ranges.size() && ranges[t].low <= ranges[s].high; ++t) {
       look(16);
       const std::size_t a = ranges[s].segment, b = ranges[t].segment;
-      if (cross(points, segments[a], segments[b])) found.emplace_back(a, b);
+      if (!cross(points, segments[a], segments[b])) continue;
+      found.emplace_back(a, b);
+      if (found.size() >= most) return found;
     }
   }
   return found;

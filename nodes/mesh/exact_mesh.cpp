@@ -42,6 +42,7 @@ class Builder {
         waiting.push_back(ball);
       }
     }
+    const std::size_t points = net_.points().size();
     for (std::int32_t round = 0; round <= most_rounds; ++round) {
       triangulate(waiting);
       if (failed_) return {};
@@ -52,6 +53,7 @@ class Builder {
       }
       if (cut.empty()) return assemble(round);
       waiting = bisect(cut);
+      if (net_.points().size() > 1000 + 4 * points) return {};  // it runs away
     }
     return {};
   }

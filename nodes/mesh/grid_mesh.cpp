@@ -287,6 +287,7 @@ class Grid {
     std::array<std::size_t, 8> steps{};
     for (int bits = 0; bits < 8; ++bits) steps[at(bits)] = step(bits);
     Nearby balls;
+    Lookout look(monitor_);
     for (std::int64_t y = 0; y + 1 < count_[1]; ++y) {
       for (std::int64_t x = 0; x + 1 < count_[0]; ++x) {
         const std::size_t corner = slot(x, y, z);
@@ -302,6 +303,8 @@ class Grid {
         const std::size_t begin = out.size();
         for (const auto& t : tetrahedra) cut(t, mask, vertex, out);
         nearby(x, y, z, 7, balls);
+        // Where balls overlap much, many of them must be asked how deep a place is.
+        look((out.size() - begin) * (256 + balls_.size()));
         for (std::size_t f = begin; f < out.size(); ++f) error = std::max(error, error_of(out[f], balls));
       }
     }

@@ -176,7 +176,11 @@ class Patch {
     std::vector<std::array<double, 2>> plane;
     plane.reserve(points_.size());
     for (const Vec3 p : points_) plane.push_back(map_.plane(p));
-    for (const auto& [a, b] : crossings(plane, ends_, monitor_)) {
+    // A few chords that cross are too long. Where most of them do, rounding decides where they are.
+    const std::size_t most_pairs = 20 + ends_.size();
+    const auto pairs = crossings(plane, ends_, most_pairs, monitor_);
+    if (pairs.size() >= most_pairs) return State::degenerate;
+    for (const auto& [a, b] : pairs) {
       const double ha = chords_[a].sagitta, hb = chords_[b].sagitta, most = std::max(ha, hb);
       if (ha >= 0.7 * most) result.cut.emplace_back(chords_[a].arc, chords_[a].knot);
       if (hb >= 0.7 * most) result.cut.emplace_back(chords_[b].arc, chords_[b].knot);
