@@ -51,6 +51,9 @@ class Builder {
         const SpherePatch& patch = patches_[at(ball)];
         cut.insert(cut.end(), patch.cut.begin(), patch.cut.end());
       }
+      // Of balls in general position few chords are too long; where many are, rounding decides where they
+      // lie.
+      if (cut.size() > 1000 + net_.points().size() / 4) return {};
       if (cut.empty()) return assemble(round);
       waiting = bisect(cut);
       if (net_.points().size() > 1000 + 4 * points) return {};  // it runs away

@@ -305,7 +305,7 @@ class Grid {
         nearby(x, y, z, 7, balls);
         // Where balls overlap much, many of them must be asked how deep a place is.
         look((out.size() - begin) * (256 + balls_.size()));
-        for (std::size_t f = begin; f < out.size(); ++f) error = std::max(error, error_of(out[f], balls));
+        for (std::size_t f = begin; f < out.size(); ++f) measure(out[f], balls, error);
       }
     }
   }
@@ -343,29 +343,28 @@ class Grid {
     }
   }
 
-  /// The largest distance from the boundary in the middle of a triangle and of those edges that ascend in it.
-  double error_of(const Triangle& t, const Nearby& balls) const {
-    double most = 0;
+  /// Makes `most` the largest distance from the boundary so far, with the middle of a triangle, of those
+  /// edges that ascend in it, and half way from the middle to the corners.
+  void measure(const Triangle& t, const Nearby& balls, double& most) const {
     Vec3 sum;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::int32_t u = t[k], v = t[(k + 1) % 3];
       const Vec3 p = vertices_[at(u)];
       sum = sum + p;
       if (u > v) continue;  // every edge is in two triangles, once in each direction
-      most = std::max(most, std::abs(depth(0.5 * (p + vertices_[at(v)]), balls)));
+      measure(0.5 * (p + vertices_[at(v)]), balls, most);
     }
-    // In the middle, and half way from there to the corners.
-    most = std::max(most, std::abs(depth((1.0 / 3) * sum, balls)));
-    for (const std::int32_t v : t)
-      most = std::max(most, std::abs(depth(0.5 * vertices_[at(v)] + (1.0 / 6) * sum, balls)));
-    return most;
+    measure((1.0 / 3) * sum, balls, most);
+    for (const std::int32_t v : t) measure(0.5 * vertices_[at(v)] + (1.0 / 6) * sum, balls, most);
   }
-  /// How deep p is in the union; a guess by the balls near by makes the search short.
-  double depth(Vec3 p, const Nearby& balls) const {
+  void measure(Vec3 p, const Nearby& balls, double& most) const {
     const auto value = [&](std::size_t i) { return distance(p, balls_.centers[i]) - balls_.radii[i]; };
     double least = std::numeric_limits<double>::infinity();
     for (const std::int32_t i : balls) least = std::min(least, value(at(i)));
-    return -tree_.smallest(p, least, -std::numeric_limits<double>::infinity(), value);
+    // Where p is not farther outside than others were, only a ball counts in which it is deeper than others.
+    const double limit = least > most ? least : std::min(least, -most);
+    most =
+        std::max(most, std::abs(tree_.smallest(p, limit, -std::numeric_limits<double>::infinity(), value)));
   }
 
   const Balls& balls_;
