@@ -40,7 +40,7 @@ Case random_case(unsigned seed, double scale = 1, bool mirrored = false, bool re
     std::reverse(points.begin(), points.end());
     std::reverse(distances.begin(), distances.end());
   }
-  return {{centers, radii, {}, {}}, {points, distances}};
+  return {{centers, radii, {}, {}}, {points, distances, distances}};
 }
 
 std::vector<double> bounds(const Case& c, const PoleBoundOptions& options = {}, double enough = no_bound) {
@@ -68,7 +68,7 @@ TEST(pole_bound, is_the_smallest_sum_over_all_samples) {
 }
 
 TEST(pole_bound, has_the_constants_of_the_corrected_and_of_the_printed_lemma) {
-  const Case c{{{{0, 0, 0}}, {1}, {}, {}}, {{{1, 0, 0}}, {1}}};
+  const Case c{{{{0, 0, 0}}, {1}, {}, {}}, {{{1, 0, 0}}, {1}, {1}}};
   EXPECT_NEAR(bounds(c)[0], 1.594, 0.0005);
   EXPECT_NEAR(bounds(c, {0.08, PoleBoundConstant::thesis})[0], 1.706, 0.0005);
 }
@@ -88,7 +88,7 @@ TEST(pole_bound, needs_not_look_beyond_the_neighbourhood_of_the_lemma) {
       points.push_back(c.sizes.points[s]);
       distances.push_back(c.sizes.pole_distances[s]);
     }
-    near.sizes = {points, distances};
+    near.sizes = {points, distances, distances};
     EXPECT_EQ(bounds(near)[i], found[i]);
   }
 }

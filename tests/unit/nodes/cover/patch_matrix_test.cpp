@@ -14,7 +14,7 @@
 #include "cover/lagrangian_bound.hpp"
 #include "cover/verify_cover.hpp"
 #include "cover_oracle.hpp"
-#include "shapes.hpp"
+#include "sample/generate.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -27,7 +27,7 @@ struct Patched {
 /// Balls around a sphere's triangles, the first of them large enough for one each.
 Patched patched(std::uint32_t seed, std::size_t extra) {
   std::mt19937 random(seed);
-  const TriangleMesh mesh = test::sphere(2).mesh();
+  const TriangleMesh mesh = generate(parse_shape("sphere?n=66"));
   std::vector<Vec3> centers;
   std::vector<double> radii;
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -137,7 +137,7 @@ TEST(patch_matrix, does_not_depend_on_the_number_of_threads) {
 }
 
 TEST(cover_points, counts_of_a_closed_triangulation_follow_from_its_euler_characteristic) {
-  const TriangleMesh mesh = test::sphere(2).mesh();
+  const TriangleMesh mesh = generate(parse_shape("sphere?n=66"));
   const PointSet samples{mesh.vertices, {}};
   const std::size_t n = mesh.vertices.size(), faces = mesh.triangles.size();
   EXPECT_EQ(cover_points(samples, mesh, Demand::samples).points.points.size(), n);
@@ -197,7 +197,7 @@ TEST(cover_points, thickness_is_that_of_a_plate_whose_balls_are_known) {
 }
 
 TEST(cover_points, a_surface_of_other_points_is_refused) {
-  const TriangleMesh mesh = test::cube().mesh();
+  const TriangleMesh mesh = generate(parse_shape("sphere?n=12"));
   std::vector<Vec3> moved(mesh.vertices.begin(), mesh.vertices.end());
   moved[3].x += 1;
   EXPECT_THROW(cover_points({moved, {}}, mesh, Demand::facets), InputError);

@@ -35,7 +35,7 @@ inline geometry::PoleSet sample_poles() {
   return poles;
 }
 
-inline geometry::LocalFeatureSize sample_feature_size() { return {{odd, far}, {0.1, 7}}; }
+inline geometry::LocalFeatureSize sample_feature_size() { return {{odd, far}, {0.1, 7}, {1, 2}}; }
 
 inline geometry::Growth sample_growth() {
   geometry::Growth growth;
