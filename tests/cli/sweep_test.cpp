@@ -72,8 +72,8 @@ TEST_F(SweepCli, runs_shared_prefixes_once_and_gives_what_single_runs_give) {
   ASSERT_EQ(report.at("variants").size(), 6u);
   std::map<std::string, int> executions;
   for (const auto& [path, node] : report.at("nodes").items()) {
-    // No output of the sweep asks for volumes, or for how the sample was chosen.
-    const bool asked = node.at("type") != "UnionMeasure" && node.at("type") != "Refine";
+    // No output of the sweep asks for volumes.
+    const bool asked = node.at("type") != "UnionMeasure";
     EXPECT_EQ(node.at("status"), asked ? "run" : "skipped") << path;
     ++executions[node.at("type")];
   }
@@ -102,19 +102,19 @@ TEST_F(SweepCli, runs_shared_prefixes_once_and_gives_what_single_runs_give) {
     EXPECT_TRUE(fs::exists(folder.file("out/" + variant.at("name").get<std::string>() + "/balls.ply")));
   }
 
-  // 6 measures of unions, and how the sample was chosen.
+  // 6 measures of unions.
   const json again = sweep(small_torus, folder.file("out"));
   EXPECT_EQ(
       count_statuses(again),
-      (std::map<std::string, int>{{"hit", static_cast<int>(report.at("nodes").size()) - 7}, {"skipped", 7}}));
+      (std::map<std::string, int>{{"hit", static_cast<int>(report.at("nodes").size()) - 6}, {"skipped", 6}}));
 }
 
 TEST_F(SweepCli, another_strategy_costs_only_what_changed) {
   std::vector<std::string> arguments = small_torus;
   arguments.insert(arguments.end(), {"--axis", "strategy=greedy"});
   const json first = sweep(arguments, folder.file("out"));
-  // Skipped: 3 measures of the union, and once how the sample was chosen.
-  EXPECT_EQ(count_statuses(first).at("run"), static_cast<int>(first.at("nodes").size()) - 4);
+  // Skipped: 3 measures of the union.
+  EXPECT_EQ(count_statuses(first).at("run"), static_cast<int>(first.at("nodes").size()) - 3);
   arguments.back() = "strategy=greedy,hybrid";
   std::map<std::string, int> executions;
   const json swapped = sweep(arguments, folder.file("out"));
