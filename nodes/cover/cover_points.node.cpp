@@ -33,6 +33,7 @@ struct CoverPointsNode {
         "start; thick shapes need fewer balls without. Whole triangles (patches) are a surface and not "
         "points: "
         "a union that covers them contains the triangulation, which takes several times as many balls.");
+    d.avoid_when("covers are to be compared with the thesis or with other programs: they cover the samples.");
     d.cites("kornberger2010", "3.6.1, the samples");
     d.input("points", &CoverPointsNode::points).doc("the samples");
     d.input("surface", &CoverPointsNode::surface)

@@ -197,7 +197,7 @@ TEST(cover_points, thickness_is_that_of_a_plate_whose_balls_are_known) {
 }
 
 TEST(cover_points, a_surface_of_other_points_is_refused) {
-  const TriangleMesh mesh = generate(parse_shape("sphere?n=12"));
+  const TriangleMesh mesh = generate(parse_shape("sphere?n=50"));
   std::vector<Vec3> moved(mesh.vertices.begin(), mesh.vertices.end());
   moved[3].x += 1;
   EXPECT_THROW(cover_points({moved, {}}, mesh, Demand::facets), InputError);
