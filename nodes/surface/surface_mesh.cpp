@@ -46,7 +46,8 @@ SurfaceMesh surface_mesh(const PowerDiagram& diagram, const PoleSet& poles, cons
   CellBoundary boundary =
       cell_boundary(diagram, labels.inside, {.smallest_component = options.smallest_component}, bounding);
   if (boundary.mesh.triangles.empty()) {
-    throw InputError("nothing is inside of the surface", causes);
+    throw InputError("nothing is inside of the surface",
+                     "sample more densely, or leave out points that are far away (Sample, strays: drop)");
   }
   SurfaceMesh result;
   result.report.filled_area = filled_share(boundary.mesh, boundary.filled);
