@@ -50,19 +50,27 @@ std::optional<double> meeting(Vec3 origin, Vec3 direction, const std::array<Vec3
   return dot(v, q) / det;
 }
 
+/// A line and, so that boxes need no division, one over its direction.
+struct Line {
+  Line(Vec3 from, Vec3 along)
+      : origin(from), direction(along), inverse{1 / along.x, 1 / along.y, 1 / along.z} {}
+  Vec3 origin, direction, inverse;
+};
+
 /// Whether a line meets a box for some t in [from, to]; when in doubt it does.
-bool meets(const Box& box, Vec3 origin, Vec3 direction, double from, double to) {
-  const auto clip = [&](double low, double high, double at, double slope) {
+bool meets(const Box& box, const Line& line, double from, double to) {
+  const auto clip = [&](double low, double high, double at, double slope, double inverse) {
     if (slope == 0) return low <= at && at <= high;
-    const double s = (low - at) / slope, t = (high - at) / slope;
+    if (!std::isfinite(inverse)) return true;
+    const double s = (low - at) * inverse, t = (high - at) * inverse;
     from = std::max(from, std::min(s, t));
     const double end = std::max(s, t);
-    to = std::min(to, end + 0x1p-50 * std::abs(end));
+    to = std::min(to, end + 0x1p-49 * std::abs(end));  // four times the rounding of either end
     return from <= to;
   };
-  return clip(box.lower.x, box.upper.x, origin.x, direction.x) &&
-         clip(box.lower.y, box.upper.y, origin.y, direction.y) &&
-         clip(box.lower.z, box.upper.z, origin.z, direction.z);
+  return clip(box.lower.x, box.upper.x, line.origin.x, line.direction.x, line.inverse.x) &&
+         clip(box.lower.y, box.upper.y, line.origin.y, line.direction.y, line.inverse.y) &&
+         clip(box.lower.z, box.upper.z, line.origin.z, line.direction.z, line.inverse.z);
 }
 
 }  // namespace
@@ -161,13 +169,14 @@ template <class Visit>
 void SurfaceTree::along(Vec3 origin, Vec3 direction, double from, double to, const Visit& visit) const {
   const auto nodes = tree_.nodes();
   if (nodes.empty()) return;
+  const Line line(origin, direction);
   std::array<std::int32_t, 80> stack;
   std::size_t depth = 0;
   stack[depth++] = 0;
   while (depth > 0) {
     const std::int32_t at = stack[--depth];
     const BoxTree::Node& node = nodes[static_cast<std::size_t>(at)];
-    if (!meets(node.box, origin, direction, from, to)) continue;
+    if (!meets(node.box, line, from, to)) continue;
     if (node.second != 0) {
       stack[depth++] = node.second;
       stack[depth++] = at + 1;
