@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -76,18 +75,22 @@ Demand demand_for(double thickness) {
   return thickness >= 1.5 ? Demand::samples : thickness >= 1 ? Demand::facets : Demand::edges;
 }
 
-CoverPoints cover_points(const PointSet& samples, const TriangleMesh& surface, Demand demand) {
-  if (demand == Demand::automatic) throw std::logic_error("the caller says what is to be covered");
+CoverPoints cover_points(const PointSet& samples, const TriangleMesh& surface, Demand demand,
+                         const Balls& balls) {
   if (const std::string broken = broken_invariant(surface); !broken.empty()) {
     throw InputError("the surface is damaged: " + broken, "connect the surface that Refine made");
   }
-  if (surface.triangles.empty() || demand == Demand::samples) return {samples, {}};
+  if (demand == Demand::automatic) {
+    const bool known = !surface.triangles.empty() && !balls.defining_samples.empty();
+    demand = known ? demand_for(thickness(surface, balls)) : Demand::samples;
+  }
+  if (surface.triangles.empty() || demand == Demand::samples) return {Demand::samples, samples, {}};
   if (!std::equal(surface.vertices.begin(), surface.vertices.end(), samples.points.begin(),
                   samples.points.end())) {
     throw InputError("the vertices of the surface are not the points",
                      "connect points and surface of one Refine node");
   }
-  if (demand == Demand::patches) return {samples, {samples.points, surface.triangles}};
+  if (demand == Demand::patches) return {demand, samples, {samples.points, surface.triangles}};
   const std::span<const Vec3> p = samples.points.span();
   std::vector<Vec3> centers;
   for (const auto& [a, b, c] : surface.triangles) {
@@ -101,7 +104,7 @@ CoverPoints cover_points(const PointSet& samples, const TriangleMesh& surface, D
   std::vector<Vec3> points(p.begin(), p.end());
   const std::vector<Vec3> added = new_points(p, centers);
   points.insert(points.end(), added.begin(), added.end());
-  return {{std::move(points), {}}, {}};
+  return {demand, {std::move(points), {}}, {}};
 }
 
 }  // namespace ballflow::geometry

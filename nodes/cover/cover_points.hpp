@@ -18,6 +18,7 @@ enum class Demand : std::uint8_t {
 };
 
 struct CoverPoints {
+  Demand demand = Demand::samples;  // what is covered: never automatic
   PointSet points;  // the samples first, then centres; pairwise distinct, without normals if there are any
   TriangleMesh patches;  // of Demand::patches: vertices are the points; without triangles else
 };
@@ -39,10 +40,14 @@ Demand demand_for(double thickness);
 /// are covered by fewer balls without.
 ///
 /// - `surface` is a triangulation of the samples: its vertices are they. Without triangles there is nothing
-///   between samples, and every demand is that for samples. Demand::automatic is resolved by the caller.
+///   between samples, and every demand is that for samples.
+/// - `balls`: the inner balls of the samples, for Demand::automatic alone. It covers the samples where they
+/// do not
+///   know the samples they pass through.
 /// - A union that covers patches contains the triangles whole.
 ///
 /// Throws InputError where the surface's vertices are not the samples, or an index is out of range.
-CoverPoints cover_points(const PointSet& samples, const TriangleMesh& surface, Demand demand);
+CoverPoints cover_points(const PointSet& samples, const TriangleMesh& surface, Demand demand,
+                         const Balls& balls = {});
 
 }  // namespace ballflow::geometry

@@ -59,17 +59,12 @@ struct CoverPointsNode {
 
   void run(RunContext& context) {
     ContextMonitor monitor(context);
-    const TriangleMesh triangles = surface ? *surface : TriangleMesh{};
-    Demand demand = options.cover;
-    if (demand == Demand::automatic) {
-      demand =
-          balls && !triangles.triangles.empty() ? demand_for(thickness(triangles, *balls)) : Demand::samples;
-      if (demand != Demand::samples) {
-        monitor.note(std::string("walls are thin: covering samples, facets") +
-                     (demand == Demand::edges ? " and edges" : ""));
-      }
+    CoverPoints result =
+        cover_points(*points, surface ? *surface : TriangleMesh{}, options.cover, balls ? *balls : Balls{});
+    if (options.cover == Demand::automatic && result.demand != Demand::samples) {
+      monitor.note(std::string("walls are thin: covering samples, facets") +
+                   (result.demand == Demand::edges ? " and edges" : ""));
     }
-    CoverPoints result = cover_points(*points, triangles, demand);
     covered = std::move(result.points);
     patches = std::move(result.patches);
   }

@@ -191,6 +191,12 @@ TEST(cover_points, thickness_is_that_of_a_plate_whose_balls_are_known) {
   EXPECT_NEAR(thickness({p, triangles}, {centers, radii, offsets, defining}),
               0.75 * 6 / (4 + 2 * std::sqrt(2.0)), 1e-12);
   EXPECT_EQ(thickness({p, triangles}, {centers, radii, {}, {}}), 0);
+  const auto chosen = [&](const TriangleMesh& surface, const Balls& balls) {
+    return cover_points({p, {}}, surface, Demand::automatic, balls).demand;
+  };
+  EXPECT_EQ(chosen({p, triangles}, {centers, radii, offsets, defining}), Demand::edges);
+  EXPECT_EQ(chosen({p, triangles}, {centers, radii, {}, {}}), Demand::samples) << "nobody knows";
+  EXPECT_EQ(chosen({p, {}}, {centers, radii, offsets, defining}), Demand::samples);
   EXPECT_EQ(demand_for(1.5), Demand::samples);
   EXPECT_EQ(demand_for(1.49), Demand::facets);
   EXPECT_EQ(demand_for(0.99), Demand::edges);
