@@ -92,6 +92,10 @@ int compare_times(Vec3 p, Vec3 q, const Ball& k, const Ball& l, const Ball& m) {
 
 }  // namespace
 
+int compare_powers(Vec3 x, Vec3 a, double weight_a, Vec3 b, double weight_b) {
+  return compare(x, {a, weight_a}, {b, weight_b});
+}
+
 PowerWalk::PowerWalk(const PowerDiagram& diagram)
     : centers_(diagram.centers), weights_(diagram.weights), begin_(centers_.size() + 1) {
   // All pairs of corners of cells, by their first ball; then each list without repetition.

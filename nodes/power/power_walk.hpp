@@ -11,6 +11,10 @@
 
 namespace ballflow::geometry {
 
+/// The sign of the power of x to ball b less that to ball a: negative where x is nearer to b. Exact for the
+/// doubles given; a weight is a squared radius.
+int compare_powers(Vec3 x, Vec3 a, double weight_a, Vec3 b, double weight_b);
+
 /// The power of x to ball i is |x - c_i|^2 - w_i; x lies in the (closed) power cells of the balls to which it
 /// has the least power. A ball is a local minimum among its neighbours in the regular triangulation exactly
 /// when it is a global one, because the lifted triangulation is convex; this holds for degenerate sets of

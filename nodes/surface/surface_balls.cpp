@@ -50,33 +50,22 @@ SurfaceRegime regime_of(double radius, double shrink, std::int64_t raised) {
 }
 
 /// Where the spacing is as large as the features nothing tells noise, gaps and handles apart.
-void warn_of_coarse_samples(const LocalFeatureSize& size, Monitor& monitor) {
+std::int64_t coarse_samples(const LocalFeatureSize& size, Monitor& monitor) {
   constexpr double coarse = 0.8;
-  std::size_t beyond = 0;
+  std::int64_t beyond = 0;
   for (std::size_t i = 0; i < size.points.size(); ++i) {
     if (size.third_neighbors[i] > coarse * size.pole_distances[i]) ++beyond;
   }
-  if (2 * beyond > size.points.size()) {
+  if (2 * beyond > static_cast<std::int64_t>(size.points.size())) {
     monitor.warn("at " + std::to_string(beyond) + " of " + std::to_string(size.points.size()) +
                  " samples the third neighbour is about as far as the medial axis, or farther: the cloud is "
                  "too coarse "
                  "or too noisy for its features, so gaps may close and handles may come or go");
   }
+  return beyond;
 }
 
 }  // namespace
-
-const char* name(SurfaceRegime regime) {
-  switch (regime) {
-    case SurfaceRegime::proven:
-      return "proven";
-    case SurfaceRegime::supported:
-      return "supported";
-    case SurfaceRegime::heuristic:
-      return "heuristic";
-  }
-  return "";
-}
 
 SurfaceBalls surface_balls(const LocalFeatureSize& size, const SurfaceBallsOptions& options,
                            Monitor& monitor) {
@@ -84,22 +73,26 @@ SurfaceBalls surface_balls(const LocalFeatureSize& size, const SurfaceBallsOptio
   monitor.step(0);
   const std::size_t n = size.points.size();
   SurfaceBalls result;
-  result.radius = radius_of(options);
+  const double radius = radius_of(options);
   std::vector<double> radii(n), shrunk(n);
   std::vector<std::int64_t> offsets(n + 1);
   std::vector<std::int32_t> defining(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const double wanted = result.radius * size.pole_distances[i];
+    const double wanted = radius * size.pole_distances[i];
     // Of fewer than four samples nobody knows the spacing.
     const double third = std::isfinite(size.third_neighbors[i]) ? size.third_neighbors[i] : 0;
     radii[i] = std::max({wanted, options.floor * third, options.smallest});
-    if (radii[i] > wanted) ++result.raised;
-    shrunk[i] = options.shrink / result.radius * radii[i];
+    if (radii[i] > wanted) ++result.report.raised;
+    shrunk[i] = options.shrink / radius * radii[i];
     offsets[i + 1] = static_cast<std::int64_t>(i + 1);
     defining[i] = static_cast<std::int32_t>(i);
   }
-  warn_of_coarse_samples(size, monitor);
-  result.regime = regime_of(result.radius, options.shrink, result.raised);
+  SurfaceBallsReport& report = result.report;
+  report.radius = radius;
+  report.shrink = options.shrink;
+  report.regime = static_cast<std::uint8_t>(regime_of(radius, options.shrink, report.raised));
+  report.samples = static_cast<std::int64_t>(n);
+  report.coarse = coarse_samples(size, monitor);
   result.balls = {size.points, std::move(radii), std::move(offsets), std::move(defining)};
   result.shrunk = {size.points, std::move(shrunk), result.balls.defining_offsets,
                    result.balls.defining_samples};

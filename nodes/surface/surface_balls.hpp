@@ -1,11 +1,10 @@
 // Balls around the samples of a surface, as large as its local feature size allows (thesis, 4.5 and 4.7).
 #pragma once
 
-#include <cstdint>
-
 #include "base/monitor.hpp"
 #include "types/balls.hpp"
 #include "types/local_feature_size.hpp"
+#include "types/surface_balls_report.hpp"
 
 namespace ballflow::geometry {
 
@@ -20,20 +19,10 @@ struct SurfaceBallsOptions {
   double smallest = 0;  // and at least this, model units (the second heuristic of 4.9.3)
 };
 
-/// On what ground the union of pruned balls has the topology of the surface.
-enum class SurfaceRegime : std::uint8_t {
-  proven,     // thesis, Theorem 4.14 with its proof repaired: for dense samples
-  supported,  // rho in the range that the thesis uses in practice, [0.24, 0.56], and rho_bar up to 0.6 of it
-  heuristic,  // experience
-};
-const char* name(SurfaceRegime regime);
-
 struct SurfaceBalls {
-  double radius = 0;  // rho
   Balls balls;   // n, at the samples: radius max(rho D^, floor d3, smallest); ball i is defined by sample i
   Balls shrunk;  // n, the same times rho_bar / rho
-  SurfaceRegime regime = SurfaceRegime::heuristic;
-  std::int64_t raised = 0;  // balls that floor or smallest made larger than rho D^
+  SurfaceBallsReport report;
 };
 
 /// d3 is the distance to the third nearest other sample, of the whole sample.

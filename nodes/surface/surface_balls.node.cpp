@@ -1,10 +1,9 @@
 #include "surface/surface_balls.hpp"
 
 #include <ballflow/sdk.hpp>
-#include <string>
 #include <utility>
 
-#include "types/artifact_types.hpp"
+#include "types/surface_types.hpp"
 
 namespace ballflow::nodes {
 namespace {
@@ -14,10 +13,11 @@ using geometry::SurfaceBallsOptions;
 struct SurfaceBalls {
   In<geometry::LocalFeatureSize> size;
   Out<geometry::Balls> balls, shrunk;
+  Out<geometry::SurfaceBallsReport> report;
   SurfaceBallsOptions options;
 
   static void declare(NodeDecl<SurfaceBalls>& d) {
-    d.id("SurfaceBalls", 1).summary("Balls around samples, as large as the local feature size allows.");
+    d.id("SurfaceBalls", 2).summary("Balls around samples, as large as the local feature size allows.");
     d.doc(
         "Ball i has its centre at sample i and the radius rho D^, where D^ is the distance to the nearest "
         "pole, but at "
@@ -35,6 +35,8 @@ struct SurfaceBalls {
     d.input("size", &SurfaceBalls::size).doc("D^ of n samples and the distances to their third neighbours");
     d.output("balls", &SurfaceBalls::balls).doc("n balls, each defined by its sample");
     d.output("shrunk", &SurfaceBalls::shrunk).doc("n shrunken copies, which have to cover the samples");
+    d.output("report", &SurfaceBalls::report)
+        .doc("rho, rho_bar, and the ground on which the union has the topology of the surface");
     d.param("radius", &SurfaceBalls::options, &SurfaceBallsOptions::radius)
         .unit("times the distance to the nearest pole")
         .at_least(0)
@@ -59,10 +61,9 @@ struct SurfaceBalls {
   void run(RunContext& context) {
     ContextMonitor monitor(context);
     geometry::SurfaceBalls result = geometry::surface_balls(*size, options, monitor);
-    context.info("rho " + std::to_string(result.radius) + ", regime: " + geometry::name(result.regime) +
-                 "; " + std::to_string(result.raised) + " balls raised to the floor");
     balls = std::move(result.balls);
     shrunk = std::move(result.shrunk);
+    report = result.report;
   }
 };
 

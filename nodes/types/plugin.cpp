@@ -2,6 +2,7 @@
 #include <ballflow/sdk/library.hpp>
 
 #include "types/power_diagram_type.hpp"
+#include "types/surface_types.hpp"
 
 using namespace ballflow::geometry;
 
@@ -9,5 +10,5 @@ BALLFLOW_PLUGIN(
     "types", "0.1.0", ballflow::node_entries<>(),
     (ballflow::type_entries<Balls, Bisection, Comparison, CoverCheck, CoverState, Growth, LocalFeatureSize,
                             MassProperties, MedialAxis, MeshReport, MinkowskiReport, PointSet, PoleSet,
-                            PowerDiagram, Refinement, SimplicialComplex, SurfaceReport, TopologyCheck,
-                            TopologyTable, TriangleMesh>()))
+                            PowerDiagram, Refinement, SampleAssignment, SimplicialComplex, SurfaceBallsReport,
+                            SurfaceReport, TopologyCheck, TopologyTable, TriangleMesh>()))

@@ -67,6 +67,7 @@ class Artifact:
             shape = entry["shape"]
             arrays[name] = rows(values, shape[1]) if len(shape) == 2 else list(values)
         self.arrays = arrays
+        self.point_numbers = None
         self.normals = self.radii = self.point_codes = self.face_codes = self.face_numbers = None
         self.points, self.edges, self.faces = [], [], []
         getattr(self, "read_" + self.type)(arrays)
@@ -121,12 +122,16 @@ class Artifact:
         self.face_codes = ("kind", a["polygon_kinds"], 0)
         self.face_numbers = ("sheet", a["polygon_sheets"], -1)
 
+    def read_SampleAssignment(self, a):
+        self.points = a["points"]
+        self.point_numbers = ("vertex", a["vertices"]) if a["vertices"] else ("ball", a["balls"])
+
     def read_CoverState(self, a):
         pass
 
     read_CoverCheck = read_Comparison = read_Bisection = read_CoverState
     read_TopologyTable = read_TopologyCheck = read_Refinement = read_CoverState
-    read_MassProperties = read_CoverState
+    read_MassProperties = read_SurfaceBallsReport = read_CoverState
 
     def balls(self):
         return [(*p, r) for p, r in zip(self.points, self.radii)]
@@ -143,6 +148,9 @@ class Artifact:
         if self.point_codes:
             names.append(self.point_codes[0])
             columns.append(self.point_codes[1])
+        if self.point_numbers:
+            names.append(self.point_numbers[0])
+            columns.append(self.point_numbers[1])
         return names, [tuple(row) for row in zip(*columns)]
 
 
@@ -294,6 +302,8 @@ def check_vtp(data, artifact):
         expected["PointData", "radius"] = artifact.radii
     if artifact.point_codes:
         expected["PointData", artifact.point_codes[0]] = artifact.point_codes[1]
+    if artifact.point_numbers:
+        expected["PointData", artifact.point_numbers[0]] = artifact.point_numbers[1]
     for values in (artifact.face_codes, artifact.face_numbers):
         if values:
             name, of_faces, of_others = values

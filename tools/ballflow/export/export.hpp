@@ -8,7 +8,8 @@
 //   Growth             csv ply vtp npy glb             grown balls; stop: 0 wish, 1 poles, 2 Gabriel, 3
 //   common SimplicialComplex  ply obj off stl vtp glb ma csv npy MedialAxis         ply obj off stl vtp glb
 //   ma csv npy CoverState         json scp lp csv                 matrix as OR-Library and LP files, choices
-//   as csv every type         json safetensors                summary and shapes; the artifact, byte for byte
+//   as csv SampleAssignment   csv ply vtp glb                 vertex (or ball): which one each sample belongs
+//   to every type         json safetensors                summary and shapes; the artifact, byte for byte
 //
 // The first format of a line is the default; it is json where there is no other. formats.hpp says what each
 // has room for: only ply, vtp, ma, sph, csv, npy, yaml and urdf keep radii, only ply, obj, vtp, glb and ma

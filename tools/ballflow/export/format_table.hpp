@@ -39,6 +39,7 @@ TypeFormats cover_state_formats();
 TypeFormats simplicial_complex_formats();
 TypeFormats medial_axis_formats();
 TypeFormats topology_table_formats();
+TypeFormats sample_assignment_formats();
 
 /// What every type can be written as.
 std::vector<Format> generic_formats();

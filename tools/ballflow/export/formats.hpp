@@ -8,7 +8,7 @@
 
 namespace ballflow {
 
-/// PLY, binary, doubles. Points with normals (nx, ny, nz), radius and code; faces with code; edges
+/// PLY, binary, doubles. Points with normals (nx, ny, nz), radius, code and number; faces with code; edges
 /// (vertex1, vertex2).
 void write_ply(const PolyData& data, OutputFile& out);
 
@@ -23,15 +23,15 @@ void write_off(const PolyData& data, OutputFile& out);
 void write_stl(const PolyData& data, OutputFile& out);
 
 /// A point a line: x y z, then its normal where there are any. xyz has blanks between the numbers; csv has
-/// commas, a line of names first, and also radii (r) and codes.
+/// commas, a line of names first, and also radii (r), codes and numbers.
 void write_xyz(const PolyData& data, OutputFile& out);
 void write_csv(const PolyData& data, OutputFile& out);
 
 /// NumPy: an n x 3 array of the points, n x 4 with their radii.
 void write_npy(const PolyData& data, OutputFile& out);
 
-/// VTK XML PolyData for ParaView, raw appended data: points, normals, radius and code as point data; dots,
-/// edges and polygons with their code as cell data.
+/// VTK XML PolyData for ParaView, raw appended data: points, normals, radius, code and number as point data;
+/// dots, edges and polygons with their code as cell data.
 void write_vtp(const PolyData& data, OutputFile& out);
 
 /// Medial axis transform as Q-MAT, MATFP and MATTopo read it: the numbers of points, edges and triangles,

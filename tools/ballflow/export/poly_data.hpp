@@ -25,7 +25,7 @@ struct Codes {
   geometry::Array<std::uint8_t> values;
 };
 
-/// One number per polygon, with a name as above.
+/// One number per point or polygon, with a name as above.
 struct Numbers {
   std::string_view name;
   geometry::Array<std::int32_t> values;
@@ -37,6 +37,7 @@ struct PolyData {
   geometry::Array<geometry::Vec3> normals;       // n x 3 or empty
   std::optional<geometry::Array<double>> radii;  // n
   Codes point_codes;                             // n where it has a name
+  Numbers point_numbers;                         // n where it has a name
 
   // Points that are something by themselves, not only as ends of edges and corners of polygons.
   std::vector<std::int32_t> dots;

@@ -23,5 +23,6 @@ TypeLayers growth_layers();
 TypeLayers simplicial_complex_layers();
 TypeLayers medial_axis_layers();
 TypeLayers refinement_layers();
+TypeLayers sample_assignment_layers();
 
 }  // namespace ballflow::show

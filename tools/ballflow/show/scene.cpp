@@ -13,7 +13,8 @@ const std::vector<TypeLayers>& table() {
   static const std::vector<TypeLayers> types = {
       point_set_layers(),          triangle_mesh_layers(),      balls_layers(),
       pole_set_layers(),           local_feature_size_layers(), growth_layers(),
-      simplicial_complex_layers(), medial_axis_layers(),        refinement_layers()};
+      simplicial_complex_layers(), medial_axis_layers(),        refinement_layers(),
+      sample_assignment_layers()};
   return types;
 }
 

@@ -207,6 +207,16 @@ std::string describe(const OutputEntry& output) {
        }},
       {"Refinement", refinement},
       {"SurfaceReport", surface},
+      {"SurfaceBallsReport",
+       [](const Json& s) {
+         return "rho " + rounded(s, "radius") + ", rho_bar " + rounded(s, "shrink") + ", " +
+                s.at("regime").get<std::string>();
+       }},
+      {"SampleAssignment",
+       [](const Json& s) {
+         return counted(s, "samples", "sample") + " belong to " + number(s, "used") + ", at most " +
+                number(s, "largest") + " to one";
+       }},
       {"SimplicialComplex", complex},
       {"MedialAxis", axis},
       {"TopologyTable", [](const Json& s) { return s.at("words").get<std::string>(); }},

@@ -161,17 +161,19 @@ TEST(surface_balls, have_the_radii_that_the_formula_says) {
   EXPECT_EQ(found.balls.radii, (Array<double>{0.7, 1.0}));
   EXPECT_DOUBLE_EQ(found.shrunk.radii[0], 0.4 * 0.7);
   EXPECT_DOUBLE_EQ(found.shrunk.radii[1], 0.4 * 1.0);
-  EXPECT_EQ(found.raised, 1);
-  EXPECT_EQ(found.regime, SurfaceRegime::heuristic);
+  EXPECT_EQ(found.report.raised, 1);
+  EXPECT_EQ(found.report.regime, 2);
   const auto regime = [&](double radius, double shrink) {
-    return surface_balls(size, {.radius = radius, .shrink = shrink, .floor = 0, .smallest = 0}).regime;
+    const SurfaceBalls balls =
+        surface_balls(size, {.radius = radius, .shrink = shrink, .floor = 0, .smallest = 0});
+    return static_cast<SurfaceRegime>(balls.report.regime);
   };
   EXPECT_EQ(regime(0.30, 0.0315), SurfaceRegime::proven);
   EXPECT_EQ(regime(0.30, 0.04), SurfaceRegime::supported);
   EXPECT_EQ(regime(0.45, 0), SurfaceRegime::supported);
   EXPECT_EQ(regime(0.8, 0.6), SurfaceRegime::heuristic);
-  EXPECT_EQ(surface_balls(size, {.radius = 0, .shrink = 0.3}).radius, 0.56);
-  EXPECT_DOUBLE_EQ(surface_balls(size, {.radius = 0, .shrink = 0.6}).radius, 0.8);
+  EXPECT_EQ(surface_balls(size, {.radius = 0, .shrink = 0.3}).report.radius, 0.56);
+  EXPECT_DOUBLE_EQ(surface_balls(size, {.radius = 0, .shrink = 0.6}).report.radius, 0.8);
   EXPECT_THROW(surface_balls(size, {.radius = 0.3, .shrink = 0.31}), InputError);
   EXPECT_THROW(surface_balls(size, {.radius = -1}), InputError);
 }

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "types/artifact_types.hpp"
+#include "types/surface_types.hpp"
 
 namespace ballflow::test {
 
@@ -36,6 +36,12 @@ inline geometry::PoleSet sample_poles() {
 }
 
 inline geometry::LocalFeatureSize sample_feature_size() { return {{odd, far}, {0.1, 7}, {1, 2}}; }
+
+inline geometry::SampleAssignment sample_assignment(bool surface) {
+  geometry::SampleAssignment assignment{{odd, far, {1, 2, 3}}, {0, 7, 70000}, {}};
+  if (surface) assignment.vertices = {2, 0, 100000};
+  return assignment;
+}
 
 inline geometry::Growth sample_growth() {
   geometry::Growth growth;

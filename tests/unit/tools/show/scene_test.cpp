@@ -4,6 +4,7 @@
 
 #include "ballflow/error.hpp"
 #include "sealed.hpp"
+#include "types/surface_types.hpp"
 
 namespace ballflow::show {
 namespace {
@@ -84,6 +85,19 @@ TEST(scene, colours_samples_by_the_local_feature_size) {
   const auto layers = shown(size);
   ASSERT_EQ(names(layers), (Names{"local feature size"}));
   EXPECT_EQ(layers[0].find(layers[0].colour_by)->values, (std::vector<double>{1, 2}));
+}
+
+TEST(scene, colours_samples_by_the_vertex_that_they_belong_to) {
+  geometry::SampleAssignment assignment{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {4, 4, 5}, {7, 7, 3}};
+  auto layers = shown(assignment);
+  ASSERT_EQ(names(layers), (Names{"samples by vertex"}));
+  EXPECT_EQ(layers[0].find("vertex")->values, (std::vector<double>{7, 7, 3}));
+  const auto& groups = layers[0].find(layers[0].colour_by)->values;
+  EXPECT_EQ(groups[0], groups[1]);
+  EXPECT_NE(groups[0], groups[2]);
+  assignment.vertices = {};
+  layers = shown(assignment);
+  EXPECT_EQ(layers[0].find("ball")->values, (std::vector<double>{4, 4, 5}));
 }
 
 TEST(scene, shows_of_a_complex_only_what_can_be_seen) {

@@ -26,11 +26,13 @@ void write_csv(const PolyData& data, OutputFile& out) {
   if (!data.normals.empty()) out << ",nx,ny,nz";
   if (data.radii) out << ",r";
   if (!data.point_codes.name.empty()) out << ',' << data.point_codes.name;
+  if (!data.point_numbers.name.empty()) out << ',' << data.point_numbers.name;
   out << '\n';
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     point_and_normal(data, i, out, ',');
     if (data.radii) out << ',' << (*data.radii)[i];
     if (!data.point_codes.name.empty()) out << ',' << int{data.point_codes.values[i]};
+    if (!data.point_numbers.name.empty()) out << ',' << data.point_numbers.values[i];
     out << '\n';
   }
 }

@@ -33,6 +33,7 @@ void write_ply(const PolyData& data, OutputFile& out) {
   }
   if (data.radii) out << "property double radius\n";
   code_property(out, data.point_codes);
+  if (!data.point_numbers.name.empty()) out << "property int " << data.point_numbers.name << '\n';
   if (data.polygons() != 0) {
     out << "element face " << data.polygons() << "\nproperty list " << (small ? "uchar" : "int")
         << " int vertex_indices\n";
@@ -49,6 +50,7 @@ void write_ply(const PolyData& data, OutputFile& out) {
     if (!data.normals.empty()) raw_vector(out, data.normals[i]);
     if (data.radii) out.raw((*data.radii)[i]);
     if (!data.point_codes.name.empty()) out.raw(data.point_codes.values[i]);
+    if (!data.point_numbers.name.empty()) out.raw(data.point_numbers.values[i]);
   }
   for (std::size_t i = 0; i < data.polygons(); ++i) {
     const auto corners = data.polygon(i);

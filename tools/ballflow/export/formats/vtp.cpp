@@ -85,6 +85,10 @@ void write_vtp(const PolyData& data, OutputFile& out) {
   if (const auto& codes = data.point_codes; !codes.name.empty()) {
     head.array("UInt8", codes.name, 1, codes.values.size(), elements(codes.values));
   }
+  if (const auto& numbers = data.point_numbers; !numbers.name.empty()) {
+    head.array("Int32", numbers.name, 1, numbers.values.size() * sizeof(std::int32_t),
+               elements(numbers.values));
+  }
   head.close("PointData");
 
   head.open("CellData");
