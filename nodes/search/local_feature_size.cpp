@@ -3,24 +3,17 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "search/box_tree.hpp"
 #include "search/neighbor_distances.hpp"
 
 namespace ballflow::geometry {
 
-LocalFeatureSize local_feature_size(const PointSet& sample, const PoleSet& poles, Monitor& monitor) {
-  const std::size_t n = sample.points.size();
-  if (poles.sample_poles.size() != n) {
-    throw InputError("the poles are those of " + std::to_string(poles.sample_poles.size()) +
-                         " samples, but there are " + std::to_string(n),
-                     "connect the points that the poles were computed from");
-  }
-  std::vector<Vec3> centers;
+PoleDistance::PoleDistance(const PoleSet& poles, Monitor& monitor) {
   // The two poles of Amenta and Bern: third poles depend on labels, and there are none before LabelPoles.
   std::vector<std::uint8_t> pole(poles.size());
   for (const auto& own : poles.sample_poles) {
@@ -29,23 +22,33 @@ LocalFeatureSize local_feature_size(const PointSet& sample, const PoleSet& poles
     }
   }
   for (std::size_t i = 0; i < poles.size(); ++i) {
-    if (pole[i] == 0) continue;
-    centers.push_back(poles.centers[i]);
+    if (pole[i] != 0) poles_.push_back(poles.centers[i]);
   }
-  if (centers.empty() && n > 0) {
+  if (poles_.empty() && !poles.sample_poles.empty()) {
     throw InputError("no sample has a pole", "the poles are damaged: compute them again");
   }
-  monitor.step(0.1);
-  const BoxTree tree(centers);
+  tree_ = BoxTree(poles_, BoxTree::default_leaf_size, monitor);
+}
+
+double PoleDistance::operator()(Vec3 p) const {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  return tree_.smallest(p, infinity, -infinity, [&](std::size_t i) { return distance(p, poles_[i]); });
+}
+
+LocalFeatureSize local_feature_size(const PointSet& sample, const PoleSet& poles, Monitor& monitor) {
+  const std::size_t n = sample.points.size();
+  if (poles.sample_poles.size() != n) {
+    throw InputError("the poles are those of " + std::to_string(poles.sample_poles.size()) +
+                         " samples, but there are " + std::to_string(n),
+                     "connect the points that the poles were computed from");
+  }
+  const PoleDistance to_pole(poles, monitor);
   monitor.step(0.3);
   std::vector<double> distances(n);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 1024), [&](const auto& range) {
     if (monitor.cancelled()) throw Cancelled();
     for (std::size_t s = range.begin(); s != range.end(); ++s) {
-      const Vec3 p = sample.points[s];
-      constexpr double infinity = std::numeric_limits<double>::infinity();
-      distances[s] =
-          tree.smallest(p, infinity, -infinity, [&](std::size_t i) { return distance(p, centers[i]); });
+      distances[s] = to_pole(sample.points[s]);
     }
   });
   for (std::size_t s = 0; s < n; ++s) {

@@ -1,15 +1,32 @@
 // The local feature size of the samples of a surface, estimated by the nearest poles (thesis, 4.5 and 4.7).
 #pragma once
 
+#include <vector>
+
 #include "base/monitor.hpp"
+#include "search/box_tree.hpp"
 #include "types/local_feature_size.hpp"
 #include "types/point_set.hpp"
 #include "types/pole_set.hpp"
 
 namespace ballflow::geometry {
 
-/// D^ of every sample: its distance to the nearest of the poles of all samples, inner or outer, with or
-/// without labels. Candidates for third poles do not count.
+/// D^ of any point: its distance to the nearest of the poles of all samples, inner or outer, with or without
+/// labels. Candidates for third poles do not count.
+class PoleDistance {
+ public:
+  /// Throws InputError when samples have no pole. Precondition: broken_invariant(poles) is empty.
+  explicit PoleDistance(const PoleSet& poles, Monitor& monitor = no_monitor());
+
+  /// Infinite without samples.
+  double operator()(Vec3 p) const;
+
+ private:
+  std::vector<Vec3> poles_;
+  BoxTree tree_;
+};
+
+/// D^ of every sample, and the distance to its third neighbour.
 /// Throws InputError when `poles` are of another number of samples, when a sample has no pole, and when a
 /// pole is where a sample is.
 /// Precondition: broken_invariant(poles) is empty.

@@ -13,6 +13,21 @@ std::string broken_invariant(const LocalFeatureSize& size) {
     return std::to_string(size.points.size()) + " points but " + std::to_string(size.third_neighbors.size()) +
            " distances to third neighbours";
   }
+  if (!size.axis_distances.empty() && size.points.size() != size.axis_distances.size()) {
+    return std::to_string(size.points.size()) + " points but " + std::to_string(size.axis_distances.size()) +
+           " distances to the medial axis";
+  }
+  for (std::size_t i = 0; i < size.axis_distances.size(); ++i) {
+    if (size.axis_distances[i] >= 0 && std::isfinite(size.axis_distances[i])) continue;
+    return "the distance of point " + std::to_string(i) + " to the medial axis is " +
+           std::to_string(size.axis_distances[i]);
+  }
+  if (size.r_at_least != -1 || size.r_at_most != -1) {
+    if (!(size.r_at_least >= 0 && size.r_at_most >= size.r_at_least && std::isfinite(size.r_at_least))) {
+      return "r is from " + std::to_string(size.r_at_least) + " to " + std::to_string(size.r_at_most);
+    }
+  }
+  if (!is_finite(size.r_at)) return "the point where r is attained is not finite";
   for (std::size_t i = 0; i < size.points.size(); ++i) {
     if (!(size.third_neighbors[i] > 0)) {
       return "the distance of point " + std::to_string(i) + " to its third neighbour is " +

@@ -23,6 +23,16 @@ struct LocalFeatureSize {
   // n, model units, > 0: the distance to the third nearest other sample, a length of the spacing; infinite
   // for fewer than four samples.
   Array<double> third_neighbors;
+  // n, model units, or empty where no axis was given: the distance to the discrete medial axis, the discrete
+  // local feature size of Definition 4.1 when the axes are those of the inner and of the outer polar balls. 0
+  // where a sample lies on the axis.
+  Array<double> axis_distances = {};
+
+  // The least r for which every point of a given mesh has a sample within r times its distance to the
+  // discrete medial axis, or to the nearest pole where no axis was given: bounds of it (see SamplingRatio),
+  // and a point of the mesh where at_least is attained. -1 without a mesh; at_most may be infinite.
+  double r_at_least = -1, r_at_most = -1;
+  Vec3 r_at = {};
 };
 
 /// Empty when the invariants above hold, else what is wrong and where.

@@ -132,6 +132,19 @@ TEST_P(EveryRepair, follows_any_pruning_with_equal_digests_for_any_number_of_thr
   expect_equal_digests(dag, results);
 }
 
+class EveryFeatureSize : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryFeatureSize, measures_with_equal_digests_for_any_number_of_threads) {
+  const Dag dag = load_graph(test::source_file("graphs/local_feature_size.json"), registry(),
+                             {{"input", "shape:torus?n=1000"}, {"to", GetParam()}});
+  const auto results = run_with_threads(dag, {1, 2, 4});
+  ASSERT_EQ(results[0].status, ExitCode::ok);
+  expect_equal_digests(dag, results);
+}
+
+INSTANTIATE_TEST_SUITE_P(FeatureSizes, EveryFeatureSize, testing::ValuesIn(names_in("graphs/feature_size")),
+                         [](const auto& instance) { return instance.param; });
+
 INSTANTIATE_TEST_SUITE_P(Repairs, EveryRepair, testing::ValuesIn(names_in("graphs/repair")),
                          [](const auto& instance) { return instance.param; });
 

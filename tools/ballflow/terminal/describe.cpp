@@ -184,8 +184,17 @@ std::string describe(const OutputEntry& output) {
        }},
       {"LocalFeatureSize",
        [](const Json& s) {
-         return counted(s, "count", "sample") + ", nearest pole from " + rounded(s, "min_pole_distance") +
-                " to " + rounded(s, "max_pole_distance") + " away";
+         std::string text = counted(s, "count", "sample") + ", nearest pole from " +
+                            rounded(s, "min_pole_distance") + " to " + rounded(s, "max_pole_distance") +
+                            " away";
+         if (s.at("min_axis_by_pole").is_number()) {
+           text += ", the axis " + rounded(s, "min_axis_by_pole") + " of that at least";
+         }
+         if (s.at("r_at_least").is_number()) {
+           const bool open = !s.at("r_at_most").is_number();
+           text += open ? "; no r-sample for r < 1" : "; an r-sample for r = " + rounded(s, "r_at_most");
+         }
+         return text;
        }},
       {"MinkowskiReport", minkowski},
       {"MeshReport", mesh_report},

@@ -111,6 +111,18 @@ TEST(local_feature_size, reports_broken_invariants) {
   EXPECT_NE(broken_invariant(LocalFeatureSize{{{0, 0, 0}}, {1, 2}, {1}}), "");
   EXPECT_NE(broken_invariant(LocalFeatureSize{{{0, 0, 0}}, {1}, {}}), "");
   EXPECT_NE(broken_invariant(LocalFeatureSize{{{0, 0, 0}}, {1}, {0}}).find("third"), std::string::npos);
+  LocalFeatureSize size{{{0, 0, 0}}, {1}, {1}};
+  size.axis_distances = {0};
+  EXPECT_EQ(broken_invariant(size), "") << "a sample may lie on the axis";
+  size.axis_distances = {-1};
+  EXPECT_NE(broken_invariant(size).find("axis"), std::string::npos);
+  size.axis_distances = {1, 1};
+  EXPECT_NE(broken_invariant(size).find("axis"), std::string::npos);
+  size.axis_distances = {};
+  size.r_at_least = 0.25;
+  EXPECT_NE(broken_invariant(size).find("r is"), std::string::npos) << "at_most is missing";
+  size.r_at_most = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(broken_invariant(size), "");
 }
 
 }  // namespace

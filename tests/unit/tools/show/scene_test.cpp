@@ -85,6 +85,10 @@ TEST(scene, colours_samples_by_the_local_feature_size) {
   const auto layers = shown(size);
   ASSERT_EQ(names(layers), (Names{"local feature size"}));
   EXPECT_EQ(layers[0].find(layers[0].colour_by)->values, (std::vector<double>{1, 2}));
+  EXPECT_EQ(layers[0].find("axis distance"), nullptr);
+  size.axis_distances = std::vector<double>{0.9, 1.5};
+  const auto with_axis = shown(size);
+  EXPECT_EQ(with_axis[0].find("axis distance")->values, (std::vector<double>{0.9, 1.5}));
 }
 
 TEST(scene, colours_samples_by_the_vertex_that_they_belong_to) {

@@ -13,6 +13,10 @@ std::vector<Layer> layers_of_local_feature_size(const Artifact& artifact) {
   layer.vertices = size.points;
   layer.attributes = {
       {"pole distance", "model units", {}, true, {size.pole_distances.begin(), size.pole_distances.end()}}};
+  if (!size.axis_distances.empty()) {
+    layer.attributes.push_back(
+        {"axis distance", "model units", {}, true, {size.axis_distances.begin(), size.axis_distances.end()}});
+  }
   layer.colour_by = "pole distance";
   return {layer};
 }
