@@ -80,7 +80,7 @@ EnlargeOptions searched(EnlargeOptions options, const Bisection& search) {
 }
 
 Enlarged enlarge(const Balls& balls, const PointSet& sample, const PoleSet& poles,
-                 const EnlargeOptions& options, Monitor& monitor) {
+                 const EnlargeOptions& options, Monitor& monitor, const PowerDiagram* diagram) {
   check(options);
   if (const std::string broken = broken_invariant(balls); !broken.empty()) {
     throw InputError(broken, "repair or remove the ball before enlarging");
@@ -103,7 +103,7 @@ Enlarged enlarge(const Balls& balls, const PointSet& sample, const PoleSet& pole
       stops[i] = static_cast<std::uint8_t>(GrowthStop::poles);
     }
   } else if (options.mode == EnlargeMode::power_diagram) {
-    PowerGrowth grown = power_growth(balls, radii, options.power_diagram, monitor);
+    PowerGrowth grown = power_growth(balls, radii, options.power_diagram, monitor, diagram);
     radii = std::move(grown.radii);
     limits = std::move(grown.limits);
     stops = std::move(grown.stops);

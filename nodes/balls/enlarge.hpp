@@ -50,9 +50,13 @@ struct Enlarged {
 /// - `sample` is what the balls were made from: its bounding box is the unit of epsilon in percent, and its
 ///   points are those of the pole bound. Without points for the other modes
 /// - `poles` are those of the sample, labelled or not; without entries for modes other than pole_bound
+/// - `diagram`, of the balls with the tolerance of the options, saves mode power_diagram a triangulation;
+/// other
+///   modes do not look at it
 /// Throws InputError for options out of range, a sample or poles that are missing where they are needed,
-/// balls that break their invariants, and radii that leave the range of doubles.
+/// balls that break their invariants, radii that leave the range of doubles, and a diagram of other balls.
 Enlarged enlarge(const Balls& balls, const PointSet& sample, const PoleSet& poles,
-                 const EnlargeOptions& options, Monitor& monitor = no_monitor());
+                 const EnlargeOptions& options, Monitor& monitor = no_monitor(),
+                 const PowerDiagram* diagram = nullptr);
 
 }  // namespace ballflow::geometry

@@ -5,6 +5,7 @@
 
 #include "exact/cgal_version.hpp"
 #include "types/artifact_types.hpp"
+#include "types/power_diagram_type.hpp"
 
 namespace ballflow::nodes {
 namespace {
@@ -21,6 +22,7 @@ struct Enlarge {
   In<geometry::PointSet> points;
   In<geometry::PoleSet> poles;
   In<geometry::Bisection> search;
+  In<geometry::PowerDiagram> diagram;
   Out<geometry::Balls> enlarged;
   Out<geometry::Growth> growth;
   EnlargeOptions options;
@@ -28,7 +30,7 @@ struct Enlarge {
   PowerGrowthOptions power_diagram;
 
   static void declare(NodeDecl<Enlarge>& d) {
-    d.id("Enlarge", 1).summary("Grow radii so that pruning may drop small features.");
+    d.id("Enlarge", 2).summary("Grow radii so that pruning may drop small features.");
     d.doc(
         "Every ball keeps its center, its place in the order and its defining samples; no radius shrinks. "
         "Modes additive, absolute and multiplicative grow as asked for, and nothing keeps the union from "
@@ -42,7 +44,7 @@ struct Enlarge {
         "poles, and radii that leave the range of doubles.");
     d.avoid_when("balls must not grow at all: connect them directly.");
     d.cites("kornberger2010", "3.5, Lemma 3.4, 3.5.2").library("CGAL", geometry::cgal_version());
-    d.memory(1 << 20, 64);  // mode power_diagram: an alpha-shape of twice as many balls
+    d.memory(1 << 20, 32);
     d.input("balls", &Enlarge::balls).doc("n balls, model units");
     d.input("points", &Enlarge::points)
         .optional()
@@ -51,6 +53,11 @@ struct Enlarge {
     d.input("search", &Enlarge::search)
         .optional()
         .doc("a search for epsilon (see Bisect): its value replaces the parameter");
+    d.input("diagram", &Enlarge::diagram)
+        .optional()
+        .doc(
+            "the power diagram of the balls (node PowerDiagram with the tolerance set here), which mode "
+            "power_diagram then need not compute; other modes do not look at it");
     d.output("balls", &Enlarge::enlarged).doc("n balls, same order, radii >= input");
     d.output("growth", &Enlarge::growth).doc("radii before and after, and what stopped each ball");
     d.choice(
@@ -96,7 +103,8 @@ struct Enlarge {
     options.pole_bound = pole_bound;
     options.power_diagram = power_diagram;
     geometry::Enlarged result = geometry::enlarge(*balls, points ? *points : geometry::PointSet{},
-                                                  poles ? *poles : geometry::PoleSet{}, options, monitor);
+                                                  poles ? *poles : geometry::PoleSet{}, options, monitor,
+                                                  diagram ? &*diagram : nullptr);
     enlarged = std::move(result.balls);
     growth = std::move(result.growth);
   }

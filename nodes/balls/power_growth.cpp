@@ -16,6 +16,7 @@
 #include "power/gabriel_points.hpp"
 #include "power/union_betti.hpp"
 #include "search/box_tree.hpp"
+#include "types/topology_table.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -41,13 +42,21 @@ std::vector<double> largest_radii(std::span<const Vec3> points, std::span<const 
   return radii;
 }
 
+/// The smallest radius whose square is at least the weight: the ball of the weight lies in that of the
+/// radius.
+double radius_of(double weight) {
+  double radius = std::sqrt(weight);
+  while (radius * radius < weight) radius = std::nextafter(radius, infinity);
+  return radius;
+}
+
 class Growing {
  public:
   Growing(const Balls& balls, std::span<const double> wished, Monitor& monitor)
       : balls_(balls), wished_(wished), monitor_(monitor) {}
 
-  PowerGrowth run(const PowerGrowthOptions& options) {
-    prepare(options);
+  PowerGrowth run(const PowerGrowthOptions& options, const PowerDiagram* diagram) {
+    prepare(options, diagram);
     if (!balls_.centers.empty()) {
       find_limits();
       grow();
@@ -58,19 +67,20 @@ class Growing {
   }
 
  private:
-  void prepare(const PowerGrowthOptions& options) {
-    PartMonitor triangulating(monitor_, 0, 0.3), classifying(monitor_, 0.3, 0.45);
+  void prepare(const PowerGrowthOptions& options, const PowerDiagram* diagram) {
+    PartMonitor triangulating(monitor_, 0, 0.35), counting(monitor_, 0.35, 0.45);
+    if (diagram != nullptr) {
+      check_diagram_of(*diagram, balls_, options.tolerance);
+      diagram_ = *diagram;
+    } else {
+      diagram_ = power_diagram(balls_, {options.tolerance}, triangulating);
+    }
+    weights_ = diagram_.weights;
     first_ = {balls_.radii.begin(), balls_.radii.end()};
     if (options.tolerance == AlphaTolerance::polar) {
-      first_ = ball_weights(balls_, options.tolerance);
-      for (double& weight : first_) weight = std::sqrt(weight);
+      for (std::size_t i = 0; i < first_.size(); ++i) first_[i] = radius_of(weights_[i]);
     }
-    start_.centers = balls_.centers;
-    start_.radii = first_;
-    diagram_ = power_diagram(start_, {AlphaTolerance::none}, triangulating);
-    weights_ = diagram_.weights;
-    complex_ = alpha_shape(diagram_, classifying);
-    result_.betti_before = result_.betti_after = complex_.betti;
+    result_.betti_before = result_.betti_after = union_betti(diagram_, counting);
   }
 
   void find_limits() {
@@ -135,27 +145,30 @@ class Growing {
                      ? last_[i]
                      : std::max(first_[i], std::min(last_[i], std::sqrt(weights_[i] + added_[i])));
     }
-    // The balls at the start lie in the grown ones: all of them together have the union of these.
-    std::vector<Vec3> centers(start_.centers.begin(), start_.centers.end());
-    centers.insert(centers.end(), start_.centers.begin(), start_.centers.end());
-    std::vector<double> all = radii;
-    all.insert(all.end(), first_.begin(), first_.end());
-    Balls both;
-    both.centers = std::move(centers);
-    both.radii = std::move(all);
-    PowerDiagram grown = power_diagram(both, {AlphaTolerance::none}, part);
-    const auto betti = union_betti(grown, part);
+    Balls grown;
+    grown.centers = balls_.centers;
+    grown.radii = radii;
+    PowerDiagram diagram = power_diagram(grown, {AlphaTolerance::none}, part);
+    const Betti betti = union_betti(diagram, part);
     ++result_.unions;
     if (betti != result_.betti_before) return false;
-    std::vector<std::int32_t> ids(start_.size());
-    std::iota(ids.begin(), ids.end(), static_cast<std::int32_t>(ids.size()));
-    PartMonitor still(monitor_, from + 0.04, from + 0.04);
-    const UnionOfBalls whole(both, std::move(grown), still);
-    if (!Inclusion(whole, ids, UnionOfBalls(start_, diagram_, complex_, still)).homology().isomorphism())
-      return false;
+    if (betti != of_a_ball && !includes_start(grown, std::move(diagram), from + 0.04)) return false;
     result_.betti_after = betti;
     result_.radii = std::move(radii);
     return true;
+  }
+
+  /// The inclusion of the union at the start in the grown one is an isomorphism.
+  bool includes_start(const Balls& grown, PowerDiagram diagram, double progress) {
+    PartMonitor still(monitor_, progress, progress);
+    if (complex_.vertices.empty()) complex_ = alpha_shape(diagram_, still);
+    Balls start;
+    start.centers = balls_.centers;
+    start.radii = first_;
+    std::vector<std::int32_t> ids(balls_.size());
+    std::iota(ids.begin(), ids.end(), 0);
+    const UnionOfBalls whole(grown, std::move(diagram), still);
+    return Inclusion(whole, ids, UnionOfBalls(start, diagram_, complex_, still)).homology().isomorphism();
   }
 
   void explain() {
@@ -174,9 +187,8 @@ class Growing {
   const Balls& balls_;
   std::span<const double> wished_;
   Monitor& monitor_;
-  Balls start_;                       // with the tolerance
-  PowerDiagram diagram_;              // theirs
-  SimplicialComplex complex_;         // of their union
+  PowerDiagram diagram_;              // of the balls at the start, with the tolerance
+  SimplicialComplex complex_;         // of their union; without vertices until it is asked for
   Array<double> weights_;             // of the balls at the start
   std::vector<double> first_;         // radii at the start
   std::vector<double> last_;          // radii at which balls cease by themselves
@@ -189,8 +201,8 @@ class Growing {
 }  // namespace
 
 PowerGrowth power_growth(const Balls& balls, std::span<const double> wished,
-                         const PowerGrowthOptions& options, Monitor& monitor) {
-  return Growing(balls, wished, monitor).run(options);
+                         const PowerGrowthOptions& options, Monitor& monitor, const PowerDiagram* diagram) {
+  return Growing(balls, wished, monitor).run(options, diagram);
 }
 
 }  // namespace ballflow::geometry

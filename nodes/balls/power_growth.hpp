@@ -39,8 +39,11 @@ struct PowerGrowth {
 /// Growth of all weights by one amount below the first critical Gabriel point is proved to keep the topology.
 ///
 /// No radius shrinks. With tolerance `polar` every radius becomes at least sqrt(r^2 + delta).
-/// Throws InputError as alpha_shape does. Preconditions: wished radii are finite and as many as balls.
+/// Where `diagram` is given it is the power diagram of `balls` with the tolerance of the options.
+/// Throws InputError as alpha_shape does, and for another diagram. Preconditions: wished radii are finite and
+/// as many as balls.
 PowerGrowth power_growth(const Balls& balls, std::span<const double> wished,
-                         const PowerGrowthOptions& options, Monitor& monitor = no_monitor());
+                         const PowerGrowthOptions& options, Monitor& monitor = no_monitor(),
+                         const PowerDiagram* diagram = nullptr);
 
 }  // namespace ballflow::geometry

@@ -71,7 +71,8 @@ class UnionOfBalls {
 class Inclusion {
  public:
   Inclusion(const UnionOfBalls& whole, std::span<const std::int32_t> ids);
-  /// The same with the union of the balls `ids`, where it is known.
+  /// The same with the union of the balls `ids`, where it is known. Its balls may be smaller than those of
+  /// the whole with the same centers: all that counts is that U* lies in U+.
   Inclusion(const UnionOfBalls& whole, std::span<const std::int32_t> ids, UnionOfBalls part);
 
   const InclusionHomology& homology() const { return homology_; }

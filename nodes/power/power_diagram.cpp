@@ -117,15 +117,17 @@ PowerDiagram power_diagram(const Balls& balls, const PowerDiagramOptions& option
   return diagram;
 }
 
-void check_diagram_of(const PowerDiagram& diagram, const Balls& balls) {
-  const std::string hint = "connect the node PowerDiagram, with tolerance none, to the same balls";
+void check_diagram_of(const PowerDiagram& diagram, const Balls& balls, AlphaTolerance tolerance) {
+  const std::string hint = std::string("connect the node PowerDiagram, with tolerance ") +
+                           (tolerance == AlphaTolerance::polar ? "polar" : "none") + ", to the same balls";
   if (diagram.centers.size() != balls.size()) {
     throw InputError("the power diagram is that of " + std::to_string(diagram.centers.size()) +
                          " balls, but there are " + std::to_string(balls.size()),
                      hint);
   }
+  const std::vector<double> weights = ball_weights(balls, tolerance);
   for (std::size_t i = 0; i < balls.size(); ++i) {
-    if (diagram.centers[i] != balls.centers[i] || diagram.weights[i] != balls.radii[i] * balls.radii[i])
+    if (diagram.centers[i] != balls.centers[i] || diagram.weights[i] != weights[i])
       throw InputError("ball " + std::to_string(i) + " is another one than in the power diagram", hint);
   }
 }

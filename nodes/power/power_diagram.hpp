@@ -39,8 +39,9 @@ std::vector<double> ball_weights(const Balls& balls, AlphaTolerance tolerance);
 ///   result depends on the balls and their numbers alone.
 PowerDiagram power_diagram(const Balls& balls, const PowerDiagramOptions& options, Monitor& monitor);
 
-/// Throws InputError where the diagram is not that of these balls with tolerance none.
-void check_diagram_of(const PowerDiagram& diagram, const Balls& balls);
+/// Throws InputError where the diagram is not that of these balls with this tolerance.
+void check_diagram_of(const PowerDiagram& diagram, const Balls& balls,
+                      AlphaTolerance tolerance = AlphaTolerance::none);
 /// Throws InputError where the complex is about other balls or weights.
 void check_diagram_of(const PowerDiagram& diagram, const SimplicialComplex& complex);
 

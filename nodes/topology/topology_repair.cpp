@@ -8,8 +8,10 @@
 
 #include "homology/inclusion_homology.hpp"
 #include "power/power_diagram.hpp"
+#include "power/union_betti.hpp"
 #include "topology/diagnosis.hpp"
 #include "topology/listing_3_2.hpp"
+#include "topology/superfluous_balls.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -45,10 +47,18 @@ class Repair {
       check_.before = check_.after = inclusion.homology().part;
       check_.before_rank = check_.after_rank = inclusion.homology().rank;
       if (inclusion.homology().isomorphism()) return {{}, check_};
+      only_components_ = defects(inclusion.homology()) > options_.most_defects;
     }
-    if (options_.method == RepairMethod::literal) returned_ = listing_3_2(whole_.balls(), kept_, monitor_);
+    if (options_.method == RepairMethod::literal && !only_components_)
+      returned_ = listing_3_2(whole_.balls(), kept_, monitor_);
     grow();
-    if (options_.method == RepairMethod::localised) shrink();
+    if (options_.method == RepairMethod::localised && !only_components_) {
+      monitor_.note("doing with fewer of the " + std::to_string(returned_.size()) + " balls returned");
+      returned_ = without_superfluous(whole_.balls(), kept_, returned_, monitor_);
+      const InclusionHomology after = compare(returned_).homology();
+      if (!after.isomorphism()) throw std::logic_error("balls were taken out that the topology needs");
+      check_.everything = merged(kept_, returned_).size() == whole_.balls().size() ? 1 : 0;
+    }
     check_.returned = static_cast<std::int64_t>(returned_.size());
     return {returned_, check_};
   }
@@ -74,6 +84,7 @@ class Repair {
       if (ids.size() == whole_.balls().size()) throw std::logic_error("a union of balls differs from itself");
       Diagnosis diagnosis(whole_, ids, inclusion, monitor_);
       Ids more = diagnosis.for_components();
+      if (more.empty() && only_components_) return;
       if (more.empty()) {
         const std::int64_t now = defects(inclusion.homology());
         if (last >= 0 && now >= last) effort *= 2;
@@ -93,37 +104,12 @@ class Repair {
     if (merged(kept_, returned_).size() == whole_.balls().size()) check_.everything = 1;
   }
 
-  /// Takes blocks of returned balls out again, in halves, quarters, ...
-  void shrink() {
-    std::int64_t attempts = 0;
-    const auto enough = [&](const Ids& some) {
-      ++attempts;
-      ++check_.inclusions;
-      monitor_.note(std::to_string(returned_.size()) + " balls returned, trying " +
-                    std::to_string(some.size()));
-      return whole_.isomorphic_to(merged(kept_, some));
-    };
-    for (std::size_t block = (returned_.size() + 1) / 2; block > 0;
-         block = block == 1 ? 0 : (block + 1) / 2) {
-      for (std::size_t end = returned_.size(); end > 0;) {
-        if (attempts >= options_.attempts) return;
-        const std::size_t begin = end > block ? end - block : 0;
-        Ids some(returned_.begin(), returned_.begin() + static_cast<std::ptrdiff_t>(begin));
-        some.insert(some.end(), returned_.begin() + static_cast<std::ptrdiff_t>(end), returned_.end());
-        if (enough(some)) {
-          returned_ = std::move(some);
-          check_.everything = 0;
-        }
-        end = begin;
-      }
-    }
-  }
-
   const UnionOfBalls& whole_;
   Ids kept_;
   const TopologyRepairOptions& options_;
   Monitor& monitor_;
   Ids returned_;
+  bool only_components_ = false;
   TopologyCheck check_;
 };
 
@@ -148,8 +134,17 @@ TopologyRepair repair_topology(const Balls& balls, std::span<const std::int32_t>
   }
   PartMonitor still(monitor, 0, 0);  // how many comparisons it takes is not known
   if (diagram != nullptr) check_diagram_of(*diagram, balls);
-  const UnionOfBalls whole =
-      diagram != nullptr ? UnionOfBalls(balls, *diagram, still) : UnionOfBalls(balls, still);
+  PowerDiagram all = diagram != nullptr ? *diagram : power_diagram(balls, {}, still);
+  if (union_betti(all, still) == of_a_ball &&
+      union_betti(select(balls, kept), AlphaTolerance::none, still) == of_a_ball) {
+    TopologyRepair repair;
+    repair.check.kept = static_cast<std::int64_t>(kept.size());
+    repair.check.whole = repair.check.before = repair.check.after = of_a_ball;
+    repair.check.before_rank = repair.check.after_rank = of_a_ball;
+    repair.check.inclusions = 1;
+    return repair;
+  }
+  const UnionOfBalls whole(balls, std::move(all), still);
   const TopologyRepair repair = Repair(whole, Ids(kept.begin(), kept.end()), options, still).run();
   monitor.step(1);
   return repair;
@@ -170,7 +165,12 @@ TopologyRepair repair_topology(const Balls& balls, const CoverState& cover,
   Ids kept(cover.chosen.begin(), cover.chosen.end());
   std::sort(kept.begin(), kept.end());
   TopologyRepair repair = repair_topology(balls, kept, options, monitor, diagram);
-  if (!repair.check.inclusion_before().isomorphism()) monitor.warn(describe(repair.check));
+  if (!repair.check.inclusion_after().isomorphism()) {
+    monitor.warn("the pruned balls do NOT have the topology of all: " + describe(repair.check) +
+                 "; sample more finely (delta) or grow less (epsilon), or raise most_defects and wait");
+  } else if (!repair.check.inclusion_before().isomorphism()) {
+    monitor.warn(describe(repair.check));
+  }
   return repair;
 }
 

@@ -20,8 +20,9 @@ enum class RepairMethod {
 
 struct TopologyRepairOptions {
   RepairMethod method = RepairMethod::localised;
-  // How many sets of balls may be looked at when superfluous balls are taken out again; 0 keeps them all.
-  std::int64_t attempts = 200;
+  // Where more classes than that are lost or extra, only components are mended: of a surface that crosses
+  // itself all over, the balls have tunnels that nobody wants to keep, and minutes go by. At least 0.
+  std::int64_t most_defects = 1000;
 };
 
 struct TopologyRepair {
@@ -38,9 +39,10 @@ CoverState with_returned(const CoverState& cover, std::span<const std::int32_t> 
 ///
 /// `localised` looks at what differs. Parts of a component are joined, and lost loops closed, by shortest
 /// paths of balls of U+. Where U* has a loop or a void that U+ has filled, or one void instead of two, balls
-/// around the place are returned, twice as many when the place is met again. Then blocks of returned
-/// balls are taken out again as long as the inclusion stays an isomorphism. In the worst case every ball
-/// comes back, which the check says.
+/// around the place are returned, twice as many when the place is met again. Then returned
+/// balls that are superfluous are taken out again, one by one (superfluous_balls.hpp). In the worst case
+/// every ball comes back, which the check says. With more than most_defects only components are joined and
+/// begun, and the check says that the inclusion is no isomorphism.
 /// - Radii are taken as they are: use enlarged balls.
 /// - `kept` ascends. Throws InputError for ids out of order or out of range, for balls that break their
 ///   invariants, and for more than 2000 balls with method literal.

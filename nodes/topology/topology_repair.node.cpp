@@ -20,15 +20,16 @@ struct TopologyRepair {
   TopologyRepairOptions options;
 
   static void declare(NodeDecl<TopologyRepair>& d) {
-    d.id("TopologyRepair", 1).summary("Return balls whose absence changed the topology of the union.");
+    d.id("TopologyRepair", 2).summary("Return balls whose absence changed the topology of the union.");
     d.doc(
         "Compares the union of the chosen balls with that of all balls, component by component, loop by loop "
         "and cavity by cavity, and returns balls until the inclusion induces isomorphisms of homology over "
         "Z/2. That is checked in the end, whatever the method did, with exact decisions for the balls as "
         "they "
         "are. Nothing is returned where nothing is wrong; in the worst case everything is, and the check "
-        "says "
-        "so. Refuses a cover about another number of balls.");
+        "says so. "
+        "Where more than most_defects is wrong, only components are joined, and a warning says so. Refuses a "
+        "cover about another number of balls.");
     d.avoid_when(
         "the balls were not enlarged: where polar balls of one sample touch, rounding decides what their "
         "union "
@@ -52,12 +53,14 @@ struct TopologyRepair {
               {RepairMethod::literal, "literal",
                "the algorithm of the thesis, one alpha-shape per ball; for at most 2000 balls"}})
         .doc("how balls to be returned are found");
-    d.param("attempts", &TopologyRepair::options, &TopologyRepairOptions::attempts)
-        .unit("comparisons of unions")
+    d.param("most_defects", &TopologyRepair::options, &TopologyRepairOptions::most_defects)
+        .unit("components, tunnels and cavities")
         .at_least(0)
         .doc(
-            "how often the repair may try to do with fewer balls; 0 keeps all that it returned, beyond a few "
-            "hundred little is gained");
+            "where more of them are lost or extra only components are joined, and a warning says so: the "
+            "surface "
+            "crosses itself, or the sample is far too coarse, and minutes would go by; a hundred defects "
+            "cost seconds");
   }
   void run(RunContext& context) {
     ContextMonitor monitor(context);

@@ -24,6 +24,7 @@ std::string describe(const TopologyCheck& check) {
   std::string text = wrong + ": " + std::to_string(check.returned) +
                      (check.returned == 1 ? " ball" : " balls") + " returned to " +
                      std::to_string(check.kept);
+  if (!check.inclusion_after().isomorphism()) text += ", and still " + describe(check.inclusion_after());
   if (check.everything != 0) text += ", which are all there are: nothing less had the right topology";
   return text;
 }

@@ -14,6 +14,10 @@ namespace ballflow::geometry {
 
 using Betti = std::array<std::int64_t, 3>;  // components, tunnels, cavities
 
+/// One component, and no class of any other dimension: where a union and a part of it have these Betti
+/// numbers, there is nothing that the inclusion could map wrongly.
+inline constexpr Betti of_a_ball{1, 0, 0};
+
 /// What a row is about, in the order of the pipeline.
 enum class TopologyStage : std::uint8_t {
   surface = 0,   // the solid that a closed surface bounds

@@ -60,7 +60,7 @@ TEST_F(ExportTest, every_type_of_a_run_is_exported_to_the_last_bit_in_every_form
   ASSERT_GE(known.size(), 7u);
   std::map<std::string, int> written;
   std::size_t files = 0;
-  for (const char* graph : {"dmt", "medial_axis", "growth", "local_feature_size"}) {
+  for (const char* graph : {"dmt", "medial_axis", "growth", "local_feature_size", "seed_polytope"}) {
     for (const auto& [name, output] : outputs(graph)) {
       const auto& [type, digest] = output;
       const std::vector<std::string> all =

@@ -126,8 +126,8 @@ TEST_F(RunOptionsTest, json_lines_follow_their_schema) {
   std::map<std::string, int> count;
   for (const json& line : lines(cold.out)) ++count[line.at("event")];
   EXPECT_EQ(count["run_started"], 1);
-  EXPECT_EQ(count["node_started"], 18);
-  EXPECT_EQ(count["node_finished"], 18);
+  EXPECT_EQ(count["node_started"], 20);
+  EXPECT_EQ(count["node_finished"], 20);
   EXPECT_GE(count["cache_write"], 11);
   const json reported = lines(cold.out).back();
   EXPECT_EQ(reported.at("event"), "run_reported");
@@ -170,7 +170,7 @@ TEST_F(RunOptionsTest, a_trace_has_every_node_on_a_lane_without_overlap) {
     nodes.insert(event.at("name").get<std::string>());
     lanes[event.at("tid")].emplace_back(start, end);
   }
-  EXPECT_EQ(nodes.size(), 18u);
+  EXPECT_EQ(nodes.size(), 20u);
   EXPECT_GE(writes, 11);
   EXPECT_GE(counters, 20);
   for (auto& [lane, slices] : lanes) {

@@ -121,7 +121,7 @@ TEST_P(EveryModel, is_repaired_when_every_third_kept_ball_is_missing) {
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(few.size()); ++i) {
     if (i % 3 != 0) kept.push_back(i);
   }
-  const TopologyRepair repair = repair_topology(few, kept, {.attempts = 20}, no_monitor());
+  const TopologyRepair repair = repair_topology(few, kept, {}, no_monitor());
   const UnionOfBalls whole(few, no_monitor());
   EXPECT_EQ(whole.inclusion_of(kept), repair.check.inclusion_before());
   const Ids after = merged(kept, repair.returned);

@@ -386,6 +386,19 @@ TEST(power_growth, of_polar_balls_adds_the_tolerance_and_keeps_the_tunnel) {
   EXPECT_GT(mean, 0.1);
 }
 
+TEST(power_growth, takes_the_power_diagram_of_the_balls_and_no_other) {
+  const Balls balls = polar_balls();
+  const std::vector<double> wished = larger(balls, 0.1);
+  for (const AlphaTolerance tolerance : {AlphaTolerance::polar, AlphaTolerance::none}) {
+    const PowerDiagram diagram = power_diagram(balls, {tolerance}, no_monitor());
+    const PowerGrowth alone = power_growth(balls, wished, {tolerance});
+    EXPECT_EQ(power_growth(balls, wished, {tolerance}, no_monitor(), &diagram).radii, alone.radii);
+    const AlphaTolerance other =
+        tolerance == AlphaTolerance::polar ? AlphaTolerance::none : AlphaTolerance::polar;
+    EXPECT_THROW(power_growth(balls, wished, {other}, no_monitor(), &diagram), InputError);
+  }
+}
+
 TEST(power_growth, of_permuted_mirrored_and_scaled_balls_is_permuted_mirrored_and_scaled) {
   for (const bool polar : {false, true}) {
     const Balls balls = polar ? polar_balls() : random_balls(60, 0.2, 21);

@@ -14,6 +14,7 @@
 #include "cech_oracle.hpp"
 #include "homology/inclusion_homology.hpp"
 #include "topology/listing_3_2.hpp"
+#include "topology/superfluous_balls.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -214,6 +215,40 @@ TEST(topology_repair, mends_larger_random_unions) {
   }
   EXPECT_GT(defective, 6);
   EXPECT_LT(everything, 3);
+}
+
+TEST(topology_repair, only_joins_components_where_more_is_wrong_than_wanted_and_says_so) {
+  const Balls ring = make_balls(circle(30), 0.15);
+  const Ids kept = all_but(30, {4, 12, 20, 28});  // four pieces: three components extra, one tunnel lost
+  const TopologyRepair some = repair_topology(ring, kept, {.most_defects = 3}, no_monitor());
+  EXPECT_EQ(some.returned.size(), 3u);
+  EXPECT_EQ(some.check.after, (Betti{1, 0, 0}));
+  EXPECT_EQ(describe(some.check),
+            "3 components are extra, 1 tunnel is lost: 3 balls returned to 26, and still 1 tunnel is lost");
+  EXPECT_EQ(repaired(ring, kept, {.most_defects = 4}).returned, (Ids{4, 12, 20, 28}));
+}
+
+TEST(without_superfluous, leaves_what_the_union_of_all_needs) {
+  std::mt19937_64 random(7);
+  std::size_t left = 0, taken = 0;
+  for (int round = 0; round < 8; ++round) {
+    const Instance instance = random_instance(random, 160, 0.12 + 0.02 * round, round % 4 == 3);
+    const UnionOfBalls whole(instance.balls, no_monitor());
+    const Ids kept(instance.kept.begin(), instance.kept.begin() + 20);
+    const Ids others = all_but(160, {kept.begin(), kept.end()});
+    const Ids needed = without_superfluous(instance.balls, kept, others, no_monitor());
+    const Ids after = merged(kept, needed);
+    EXPECT_TRUE(whole.inclusion_of(after).isomorphism()) << "round " << round;
+    for (const std::int32_t ball : needed) {
+      Ids less = after;
+      less.erase(std::find(less.begin(), less.end(), ball));
+      EXPECT_FALSE(whole.inclusion_of(less).isomorphism()) << "round " << round << ", ball " << ball;
+    }
+    left += needed.size();
+    taken += others.size() - needed.size();
+  }
+  EXPECT_GT(left, 100u);
+  EXPECT_GT(taken, 100u);
 }
 
 TEST(listing_3_2, keeps_the_topology_of_balls_that_overlap_deeply) {
