@@ -1,7 +1,6 @@
 #include "mesh/ball_mesh.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -10,11 +9,11 @@
 #include <vector>
 
 #include "base/random.hpp"
+#include "mesh/boundary_gap.hpp"
 #include "mesh/exact_mesh.hpp"
 #include "mesh/grid_mesh.hpp"
 #include "power/alpha_shape.hpp"
 #include "power/power_diagram.hpp"
-#include "power/union_betti.hpp"
 #include "power/union_vertices.hpp"
 #include "search/self_intersection.hpp"
 
@@ -134,9 +133,9 @@ class Mesher {
   void grid() {
     PartMonitor counting(monitor_, 0.6, 0.65), meshing(monitor_, 0.65, 1);
     MeshReport& report = result_.report;
-    const std::array<std::int64_t, 3> betti = union_betti(balls_, AlphaTolerance::none, counting);
-    report.euler_given = betti[0] - betti[1] + betti[2];
-    report.set_union(betti);
+    const Looked given = look_at(0, counting);
+    report.euler_given = given.complex.euler_characteristic();
+    report.set_union(given.complex.betti);
     report.made_by = static_cast<std::uint8_t>(MeshedBy::grid);
     report.growth = 0;
     // Thin parts want smaller cells, but in the bottom of sharp notches there are bubbles at every size: two
@@ -158,26 +157,35 @@ class Mesher {
       report.error = 1.05 * mesh->error;
       report.cell = cell;
       report.rounds = round;
+      report.error_back = -1;
       describe();
-      if (what_differs(report).empty()) return;
+      if (options_.refine_notches && !(report.error > report.error_asked)) measure_back(given);
+      if (what_differs(report).empty()) break;
       if (best && !better(report, best->report)) {
         ++in_vain;
       } else {
         in_vain = 0;
         best = result_;
       }
-      cell *= report.error > report.error_asked
-                  ? std::clamp(0.9 * report.error_asked / report.error, 0.5, 0.8)
-                  : 0.7;
+      const double off = std::max(report.error, report.error_back);
+      cell *= off > report.error_asked ? std::clamp(0.9 * report.error_asked / off, 0.5, 0.8) : 0.7;
     }
-    if (best) result_ = *std::move(best);
+    if (best && !what_differs(report).empty()) result_ = *std::move(best);
+    if (report.error_back < 0) measure_back(given);
+  }
+  void measure_back(const Looked& given) {
+    MeshReport& report = result_.report;
+    if (result_.mesh.triangles.empty()) return;  // all that there is lies between the corners of the grid
+    report.error_back = boundary_gap(balls_, given.diagram, given.complex, result_.mesh, report.error_asked,
+                                     report.error, monitor_);
   }
   /// Whether a is nearer to what was asked for: first the distance, then the topology.
   static bool better(const MeshReport& a, const MeshReport& b) {
     const auto off = [](const MeshReport& r) {
       return std::abs(r.euler - 2 * r.euler_meshed) + 2 * std::abs(r.components - r.surfaces);
     };
-    if (a.error > a.error_asked || b.error > b.error_asked) return a.error < b.error;
+    const double there = std::max(a.error, a.error_back), other = std::max(b.error, b.error_back);
+    if (there > a.error_asked || other > b.error_asked) return there < other;
     return off(a) < off(b);
   }
 

@@ -29,6 +29,7 @@ struct BallMeshOptions {
   double error = 0.2;  // % of the longest edge of the bounding box of the balls: distance from the boundary
   std::int64_t most_faces = 20'000'000;  // a mesh of more is refused
   bool self_intersections = true;        // count them
+  bool refine_notches = false;           // grid: until their bottoms are within the error, too
 };
 
 struct BallMesh {
@@ -50,6 +51,9 @@ struct BallMesh {
 /// of
 ///   balls twice as large is twice as large, in general position. It does not depend on the number of
 ///   threads.
+/// - A grid rounds the bottoms of sharp notches off: report.error_back says by how much. With refine_notches
+/// its cells
+///   become smaller until that is within the error, too, or two rounds bring no progress.
 /// - Patches of thin parts may cross each other: report.self_intersections. Triangles of a grid lie in
 /// different
 ///   tetrahedra and do not cross.

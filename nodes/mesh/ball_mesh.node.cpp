@@ -20,7 +20,7 @@ struct BallMesh {
   BallMeshOptions options;
 
   static void declare(NodeDecl<BallMesh>& d) {
-    d.id("BallMesh", 1).summary("A closed triangle mesh of the boundary of a union of balls.");
+    d.id("BallMesh", 2).summary("A closed triangle mesh of the boundary of a union of balls.");
     d.doc(
         "The mesh is a closed manifold whose faces look outwards, with one component for every component and "
         "every "
@@ -58,6 +58,11 @@ struct BallMesh {
         .doc("a mesh of more faces is refused");
     d.param("self_intersections", &BallMesh::options, &BallMeshOptions::self_intersections)
         .doc("count the pairs of triangles that cross; takes about as long as the mesh");
+    d.param("refine_notches", &BallMesh::options, &BallMeshOptions::refine_notches)
+        .doc(
+            "method grid: refine until the bottoms of notches are within the error, too, which takes about "
+            "twice the "
+            "triangles; otherwise the report says how far they are");
   }
   void run(RunContext& context) {
     ContextMonitor monitor(context);

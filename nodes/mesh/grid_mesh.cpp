@@ -287,6 +287,7 @@ class Grid {
     std::array<std::size_t, 8> steps{};
     for (int bits = 0; bits < 8; ++bits) steps[at(bits)] = step(bits);
     Nearby balls;
+    std::vector<std::int32_t> deepest;
     Lookout look(monitor_);
     for (std::int64_t y = 0; y + 1 < count_[1]; ++y) {
       for (std::int64_t x = 0; x + 1 < count_[0]; ++x) {
@@ -305,7 +306,9 @@ class Grid {
         nearby(x, y, z, 7, balls);
         // Where balls overlap much, many of them must be asked how deep a place is.
         look((out.size() - begin) * (256 + balls_.size()));
-        for (std::size_t f = begin; f < out.size(); ++f) measure(out[f], balls, error);
+        const bool few = deepest_in_cell(0.5 * (position(x, y, z) + position(x + 1, y + 1, z + 1)), deepest);
+        for (std::size_t f = begin; f < out.size(); ++f)
+          measure(out[f], balls, few ? &deepest : nullptr, error);
       }
     }
   }
@@ -343,22 +346,42 @@ class Grid {
     }
   }
 
+  /// The balls in one of which each place of a cell is deepest, and some others; false where these are many.
+  bool deepest_in_cell(Vec3 middle, std::vector<std::int32_t>& balls) const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const auto value = [&](std::size_t i) { return distance(middle, balls_.centers[i]) - balls_.radii[i]; };
+    // From the middle to a corner depths change by less than 0.867 cells, each.
+    const double limit = tree_.smallest(middle, infinity, -infinity, value) + 1.74 * cell_;
+    balls.clear();
+    tree_.below(middle, limit, [&](std::size_t i) {
+      if (value(i) < limit) balls.push_back(static_cast<std::int32_t>(i));
+    });
+    return balls.size() <= 48;
+  }
+
   /// Makes `most` the largest distance from the boundary so far, with the middle of a triangle, of those
   /// edges that ascend in it, and half way from the middle to the corners.
-  void measure(const Triangle& t, const Nearby& balls, double& most) const {
+  void measure(const Triangle& t, const Nearby& balls, const std::vector<std::int32_t>* deepest,
+               double& most) const {
     Vec3 sum;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::int32_t u = t[k], v = t[(k + 1) % 3];
       const Vec3 p = vertices_[at(u)];
       sum = sum + p;
       if (u > v) continue;  // every edge is in two triangles, once in each direction
-      measure(0.5 * (p + vertices_[at(v)]), balls, most);
+      measure(0.5 * (p + vertices_[at(v)]), balls, deepest, most);
     }
-    measure((1.0 / 3) * sum, balls, most);
-    for (const std::int32_t v : t) measure(0.5 * vertices_[at(v)] + (1.0 / 6) * sum, balls, most);
+    measure((1.0 / 3) * sum, balls, deepest, most);
+    for (const std::int32_t v : t) measure(0.5 * vertices_[at(v)] + (1.0 / 6) * sum, balls, deepest, most);
   }
-  void measure(Vec3 p, const Nearby& balls, double& most) const {
+  void measure(Vec3 p, const Nearby& balls, const std::vector<std::int32_t>* deepest, double& most) const {
     const auto value = [&](std::size_t i) { return distance(p, balls_.centers[i]) - balls_.radii[i]; };
+    if (deepest != nullptr) {
+      double depth = std::numeric_limits<double>::infinity();
+      for (const std::int32_t i : *deepest) depth = std::min(depth, value(at(i)));
+      most = std::max(most, std::abs(depth));
+      return;
+    }
     double least = std::numeric_limits<double>::infinity();
     for (const std::int32_t i : balls) least = std::min(least, value(at(i)));
     // Where p is not farther outside than others were, only a ball counts in which it is deeper than others.

@@ -38,6 +38,10 @@ std::string what_differs(const MeshReport& r) {
     add("the mesh is " + std::to_string(r.error) + " off, " + std::to_string(r.error_asked) +
         " was asked for");
   }
+  if (r.error_back > r.error_asked) {
+    add("the bottoms of notches are up to " + std::to_string(r.error_back) + " away from the mesh, " +
+        std::to_string(r.error_asked) + " was asked for: refine_notches, or method exact, come nearer");
+  }
   return text;
 }
 
@@ -50,6 +54,8 @@ std::string broken_invariant(const MeshReport& r) {
   for (const double x : {r.error_asked, r.error, r.cell}) {
     if (!(x >= 0 && std::isfinite(x))) return "a length is negative or not finite";
   }
+  if (!(r.error_back == -1 || (r.error_back >= 0 && std::isfinite(r.error_back))))
+    return "error_back is neither a length nor -1";
   if (r.self_intersections < -1) return "the number of self-intersections is below -1";
   return {};
 }

@@ -8,7 +8,7 @@ namespace ballflow {
 
 void TypeOf<geometry::MeshReport>::declare(TypeDecl<geometry::MeshReport>& d) {
   using T = geometry::MeshReport;
-  d.id("MeshReport", 1).doc("How a mesh of the boundary of a union of balls was made, and what holds of it.");
+  d.id("MeshReport", 2).doc("How a mesh of the boundary of a union of balls was made, and what holds of it.");
   d.scalar("made_by", &T::made_by)
       .doc("0 from the power diagram, 1 from that of balls whose radii were changed a little, 2 a grid");
   d.scalar("vertices", &T::vertices).doc("vertices of the mesh");
@@ -23,6 +23,8 @@ void TypeOf<geometry::MeshReport>::declare(TypeDecl<geometry::MeshReport>& d) {
   d.scalar("oriented", &T::oriented).doc("1: neighbours run through their edge in opposite directions");
   d.scalar("error_asked", &T::error_asked).doc("model units");
   d.scalar("error", &T::error).doc("largest distance of the mesh from the boundary, model units");
+  d.scalar("error_back", &T::error_back)
+      .doc("of a grid: largest distance of the boundary from the mesh, model units; -1: not measured");
   d.scalar("growth", &T::growth).doc("most that a radius grew; below 0: shrank; model units");
   d.scalar("cell", &T::cell).doc("edge of a cell of the grid, model units; 0: no grid");
   d.scalar("rounds", &T::rounds).doc("how often arcs were divided again, or the grid was refined");
@@ -36,6 +38,8 @@ void TypeOf<geometry::MeshReport>::declare(TypeDecl<geometry::MeshReport>& d) {
   d.summary("differs", "what is not as it was asked for, in words; null when all is");
   d.summary("error_asked", "model units");
   d.summary("error", "the largest distance of the mesh from the boundary of the union, model units");
+  d.summary("error_back",
+            "the largest distance of the boundary from the mesh, in notches; null unless made by a grid");
   d.summary("growth", "the most that a radius grew, below 0 shrank, so that nothing is a tie; model units");
   d.summary("cell", "edge of a cell of the grid, model units; null without a grid");
   d.summary("self_intersections", "pairs of triangles that cross; null when they were not counted");
@@ -50,6 +54,7 @@ void TypeOf<geometry::MeshReport>::declare(TypeDecl<geometry::MeshReport>& d) {
                    {"differs", differs.empty() ? SummaryValue(nullptr) : SummaryValue(differs)},
                    {"error_asked", v.error_asked},
                    {"error", v.error},
+                   {"error_back", v.error_back < 0 ? SummaryValue(nullptr) : SummaryValue(v.error_back)},
                    {"growth", v.growth},
                    {"cell", v.cell > 0 ? SummaryValue(v.cell) : SummaryValue(nullptr)},
                    {"self_intersections",
