@@ -121,7 +121,12 @@ std::vector<std::int32_t> nearest_of(const Balls& balls, std::vector<std::int32_
 }  // namespace
 
 SampleAssignment assign_samples(const Balls& balls, const PointSet& sample, const SurfaceReport* surface,
-                                Monitor& monitor) {
+                                const PointSet* original, Monitor& monitor) {
+  if (original != nullptr && original->points.size() != sample.points.size()) {
+    throw InputError("there are " + std::to_string(sample.points.size()) + " samples, but " +
+                         std::to_string(original->points.size()) + " as they came",
+                     "connect the points that these were before they were denoised");
+  }
   if (balls.size() == 0)
     throw InputError("there are no balls that samples could belong to", "keep at least one ball");
   std::vector<std::int32_t> vertex, all(balls.size()), some;
@@ -133,7 +138,7 @@ SampleAssignment assign_samples(const Balls& balls, const PointSet& sample, cons
   if (surface != nullptr && some.empty())
     throw InputError("the surface has no vertices that samples could belong to", "look at its report");
   SampleAssignment result;
-  result.points = sample.points;
+  result.points = original != nullptr ? original->points : sample.points;
   PartMonitor of_balls(monitor, 0, 0.5), of_vertices(monitor, 0.5, 1);
   std::vector<std::int32_t> nearest = nearest_of(balls, std::move(all), sample.points, of_balls);
   if (surface != nullptr) {

@@ -19,8 +19,12 @@ namespace ballflow::geometry {
 ///   surface passes them by, or a speck was left out): `vertices` looks at the others alone. Of several
 ///   vertices with one ball, where sheets touch, it has the first.
 ///
-/// Throws InputError without balls, for a report of other balls, and for a surface without vertices.
+/// - `original`: n points that the result lists in place of the samples (where these were before they were
+/// denoised), or null
+///
+/// Throws InputError without balls, for another number of originals, for a report of other balls, and for a
+/// surface without vertices.
 SampleAssignment assign_samples(const Balls& balls, const PointSet& sample, const SurfaceReport* surface,
-                                Monitor& monitor = no_monitor());
+                                const PointSet* original = nullptr, Monitor& monitor = no_monitor());
 
 }  // namespace ballflow::geometry

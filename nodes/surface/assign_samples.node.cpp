@@ -10,7 +10,7 @@ namespace {
 
 struct AssignSamples {
   In<geometry::Balls> balls;
-  In<geometry::PointSet> points;
+  In<geometry::PointSet> points, original;
   In<geometry::SurfaceReport> surface;
   Out<geometry::SampleAssignment> assignment;
 
@@ -32,11 +32,15 @@ struct AssignSamples {
     d.input("surface", &AssignSamples::surface)
         .optional()
         .doc("the report of the surface through the balls; without it samples belong to balls only");
+    d.input("original", &AssignSamples::original)
+        .optional()
+        .doc("the samples as they came, where they were denoised: listed in place of points");
     d.output("assignment", &AssignSamples::assignment).doc("ball and vertex of each sample, in their order");
   }
   void run(RunContext& context) {
     ContextMonitor monitor(context);
-    assignment = geometry::assign_samples(*balls, *points, surface ? &*surface : nullptr, monitor);
+    assignment = geometry::assign_samples(*balls, *points, surface ? &*surface : nullptr,
+                                          original ? &*original : nullptr, monitor);
   }
 };
 

@@ -9,6 +9,6 @@ using namespace ballflow::geometry;
 BALLFLOW_PLUGIN(
     "types", "0.1.0", ballflow::node_entries<>(),
     (ballflow::type_entries<Balls, Bisection, Comparison, CoverCheck, CoverState, Growth, LocalFeatureSize,
-                            MassProperties, MedialAxis, MeshReport, MinkowskiReport, PointSet, PoleSet,
-                            PowerDiagram, Refinement, SampleAssignment, SimplicialComplex, SurfaceBallsReport,
-                            SurfaceReport, TopologyCheck, TopologyTable, TriangleMesh>()))
+                            MassProperties, MedialAxis, MeshReport, MinkowskiReport, NoiseReport, PointSet,
+                            PoleSet, PowerDiagram, Refinement, SampleAssignment, SimplicialComplex,
+                            SurfaceBallsReport, SurfaceReport, TopologyCheck, TopologyTable, TriangleMesh>()))

@@ -3,10 +3,16 @@
 #pragma once
 
 #include "types/artifact_types.hpp"
+#include "types/noise_report.hpp"
 #include "types/sample_assignment.hpp"
 #include "types/surface_balls_report.hpp"
 
 namespace ballflow {
+
+template <>
+struct TypeOf<geometry::NoiseReport> {
+  static void declare(TypeDecl<geometry::NoiseReport>& d);
+};
 
 template <>
 struct TypeOf<geometry::SampleAssignment> {

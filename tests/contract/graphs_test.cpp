@@ -148,6 +148,20 @@ INSTANTIATE_TEST_SUITE_P(FeatureSizes, EveryFeatureSize, testing::ValuesIn(names
 INSTANTIATE_TEST_SUITE_P(Repairs, EveryRepair, testing::ValuesIn(names_in("graphs/repair")),
                          [](const auto& instance) { return instance.param; });
 
+class EveryRobustness : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryRobustness, makes_a_surface_possible_with_equal_digests_for_any_number_of_threads) {
+  const Dag dag = load_graph(test::source_file("graphs/reconstruct.json"), registry(),
+                             {{"input", "shape:torus?n=1500"}, {"robustness", GetParam()}});
+  EXPECT_TRUE(dag.warnings.empty());
+  const auto results = run_with_threads(dag, {1, 4});
+  ASSERT_EQ(results[0].status, ExitCode::ok);
+  expect_equal_digests(dag, results);
+}
+
+INSTANTIATE_TEST_SUITE_P(Robustness, EveryRobustness, testing::ValuesIn(names_in("graphs/robustness")),
+                         [](const auto& instance) { return instance.param; });
+
 INSTANTIATE_TEST_SUITE_P(Strategies, EveryStrategy, testing::ValuesIn(names_in("graphs/strategies")),
                          [](const auto& instance) { return instance.param; });
 

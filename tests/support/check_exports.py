@@ -132,6 +132,7 @@ class Artifact:
     read_CoverCheck = read_Comparison = read_Bisection = read_CoverState
     read_TopologyTable = read_TopologyCheck = read_Refinement = read_CoverState
     read_MassProperties = read_SurfaceBallsReport = read_SurfaceReport = read_CoverState
+    read_NoiseReport = read_CoverState
 
     def balls(self):
         return [(*p, r) for p, r in zip(self.points, self.radii)]

@@ -286,6 +286,8 @@ class Reader {
       }
     }
     for (const GraphInput& input : file_.inputs) {
+      // Of a loop's body: the state at the beginning, which an iteration may replace without a look at it.
+      if (file_.output_index.contains(input.name)) continue;
       if (!input.used && !input.broken && !input.param)
         findings_.warning(file_, input.offset, "input " + in_quotes(input.name) + " is not used");
     }

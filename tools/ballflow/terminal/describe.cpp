@@ -221,6 +221,13 @@ std::string describe(const OutputEntry& output) {
          return "rho " + rounded(s, "radius") + ", rho_bar " + rounded(s, "shrink") + ", " +
                 s.at("regime").get<std::string>();
        }},
+      {"NoiseReport",
+       [](const Json& s) {
+         std::string text = s.at("verdict").get<std::string>() + ", " +
+                            percent(s.at("uncertain").get<double>()) + " of the poles uncertain";
+         if (s.at("neighbors") != 0) text += ", denoised with " + number(s, "neighbors") + " neighbours";
+         return text;
+       }},
       {"SampleAssignment",
        [](const Json& s) {
          return counted(s, "samples", "sample") + " belong to " + number(s, "used") + ", at most " +

@@ -186,6 +186,26 @@ TEST(graph, warns_about_what_is_not_used) {
   EXPECT_EQ(dag.warnings[1].severity, Diagnostic::Severity::warning);
 }
 
+TEST(graph, warns_about_an_unused_input_unless_it_is_the_first_state_of_a_loop) {
+  const auto warnings = [](const std::string& output) {
+    test::TempFolder folder;
+    test::write_file(folder.file("body.json"),
+                     R"({"inputs":{"p":{"type":"Points"},"b":{"type":"Balls"}},
+      "nodes":{"g":{"type":"Grow","inputs":{"points":"inputs.p"}}},"outputs":{")" +
+                         output + R"(":"g.balls"}})");
+    test::write_file(folder.file("top.json"), R"({"nodes":{"l":{"type":"Load","params":{"file":"x"}},
+      "g":{"type":"Grow","inputs":{"points":"l.points"}},
+      "s":{"graph":"body.json","inputs":{"p":"l.points","b":"g.balls"}}},"outputs":{"b":"s.)" +
+                                                  output + R"("}})");
+    std::vector<std::string> messages;
+    for (const Diagnostic& warning : load(folder.file("top.json")).warnings)
+      messages.push_back(warning.message);
+    return messages;
+  };
+  EXPECT_EQ(warnings("other"), std::vector<std::string>{"input \"b\" is not used"});
+  EXPECT_EQ(warnings("b"), std::vector<std::string>{});
+}
+
 TEST(graph, accepts_a_byte_order_mark_and_windows_line_ends) {
   const Dag dag = parse(
       "\xef\xbb\xbf{\r\n\"nodes\":{\r\n\"l\":{\"type\":\"Load\",\"params\":{\"file\":\"x\"}}},\"outputs\":{"

@@ -122,6 +122,9 @@ TEST(assign_samples, refuses_what_has_no_answer) {
   EXPECT_THROW(assign_samples(instance.balls, instance.points, &surface), InputError);
   surface.vertex_balls = {150};
   EXPECT_THROW(assign_samples(instance.balls, instance.points, &surface), InputError);
+  const PointSet fewer{{{0, 0, 0}}, {}};
+  EXPECT_THROW(assign_samples(instance.balls, instance.points, nullptr, &fewer), InputError);
+  EXPECT_EQ(assign_samples(instance.balls, fewer, nullptr, &fewer).points, fewer.points);
   EXPECT_TRUE(assign_samples(instance.balls, {}, nullptr).balls.empty());
 }
 

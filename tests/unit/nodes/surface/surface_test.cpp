@@ -10,19 +10,14 @@
 #include <set>
 #include <string>
 
-#include "io/read_mesh.hpp"
-#include "poles/label_poles.hpp"
-#include "poles/voronoi_poles.hpp"
 #include "power/power_diagram.hpp"
 #include "sample/generate.hpp"
-#include "search/local_feature_size.hpp"
 #include "search/neighbor_distances.hpp"
 #include "shapes.hpp"
 #include "surface/cell_boundary.hpp"
 #include "surface/cell_labels.hpp"
 #include "surface/minimum_cut.hpp"
-#include "surface/surface_balls.hpp"
-#include "surface/surface_mesh.hpp"
+#include "surface_fixture.hpp"
 #include "test_data.hpp"
 
 namespace ballflow::geometry {
@@ -84,33 +79,6 @@ TEST(minimum_cut, is_the_least_of_all_cuts_and_the_smallest_of_these) {
       ASSERT_EQ(found.at_source[static_cast<std::size_t>(i)], best >> i & 1) << round << " " << i;
     }
   }
-}
-
-/// Edges and vertex links, counted without mesh_topology.
-void expect_closed_manifold(const TriangleMesh& mesh) {
-  std::map<std::pair<std::int32_t, std::int32_t>, int> directed;
-  std::map<std::int32_t, std::map<std::int32_t, std::int32_t>> link;  // per vertex: next of each neighbour
-  for (const Triangle& t : mesh.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      ++directed[{t[k], t[(k + 1) % 3]}];
-      link[t[k]][t[(k + 1) % 3]] = t[(k + 2) % 3];
-    }
-  }
-  for (const auto& [edge, uses] : directed) {
-    ASSERT_EQ(uses, 1);
-    ASSERT_EQ(directed.count({edge.second, edge.first}), 1u);
-  }
-  for (const auto& [v, next] : link) {
-    std::size_t steps = 0;
-    std::int32_t at = next.begin()->first;
-    do {
-      ASSERT_EQ(next.count(at), 1u);
-      at = next.at(at);
-      ++steps;
-    } while (at != next.begin()->first && steps <= next.size());
-    ASSERT_EQ(steps, next.size()) << "the triangles at a vertex are several fans";
-  }
-  EXPECT_EQ(link.size(), mesh.vertices.size()) << "vertices of no triangle";
 }
 
 double volume(const TriangleMesh& mesh) {
@@ -176,22 +144,6 @@ TEST(surface_balls, have_the_radii_that_the_formula_says) {
   EXPECT_DOUBLE_EQ(surface_balls(size, {.radius = 0, .shrink = 0.6}).report.radius, 0.8);
   EXPECT_THROW(surface_balls(size, {.radius = 0.3, .shrink = 0.31}), InputError);
   EXPECT_THROW(surface_balls(size, {.radius = -1}), InputError);
-}
-
-struct Cloud {
-  PointSet points;
-  PoleSet poles;
-  PowerDiagram diagram;
-};
-
-Cloud cloud_of(const PointSet& points) {
-  Cloud cloud;
-  cloud.points = {points.points, {}};
-  const PoleSet vertices = voronoi_poles(cloud.points, {});
-  cloud.poles = label_poles(vertices, {}, {.method = LabelMethod::angle}).poles;
-  const SurfaceBalls balls = surface_balls(local_feature_size(cloud.points, vertices), {.shrink = 0});
-  cloud.diagram = power_diagram(balls.balls, {}, no_monitor());
-  return cloud;
 }
 
 class Shapes : public testing::TestWithParam<std::pair<const char*, int>> {};
