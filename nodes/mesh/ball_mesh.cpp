@@ -12,6 +12,7 @@
 #include "mesh/boundary_gap.hpp"
 #include "mesh/exact_mesh.hpp"
 #include "mesh/grid_mesh.hpp"
+#include "mesh/simplified_mesh.hpp"
 #include "power/alpha_shape.hpp"
 #include "power/power_diagram.hpp"
 #include "power/union_vertices.hpp"
@@ -67,12 +68,17 @@ class Mesher {
     if (!(extent_ > 0))
       throw InputError("the union of the balls is a single point, which has no surface",
                        "give the ball a radius, or leave it out");
-    if (options_.method == BallMeshMethod::exact && exact()) {
-      if (options_.self_intersections) count_self_intersections();
-    } else {
+    bool crossing = true;  // triangles of a grid lie in different tetrahedra
+    if (options_.method != BallMeshMethod::exact || !exact()) {
       grid();
-      result_.report.self_intersections = 0;
+      crossing = false;
     }
+    if (options_.keep_faces < 100) {
+      simplify();
+      crossing = true;
+    }
+    if (!crossing) result_.report.self_intersections = 0;
+    if (crossing && options_.self_intersections) count_self_intersections();
     return std::move(result_);
   }
 
@@ -173,6 +179,18 @@ class Mesher {
     if (best && !what_differs(report).empty()) result_ = *std::move(best);
     if (report.error_back < 0) measure_back(given);
   }
+  void simplify() {
+    MeshReport& report = result_.report;
+    report.faces_before = report.faces;
+    const auto wanted =
+        static_cast<std::size_t>(std::ceil(options_.keep_faces / 100 * static_cast<double>(report.faces)));
+    PartMonitor collapsing(monitor_, 0.6, 0.9);
+    result_.mesh = simplified_mesh(result_.mesh, wanted, collapsing);
+    describe();
+    const Looked given = look_at(report.growth, monitor_);
+    report.error = 1.05 * mesh_gap(balls_, result_.mesh, monitor_);
+    measure_back(given);
+  }
   void measure_back(const Looked& given) {
     MeshReport& report = result_.report;
     if (result_.mesh.triangles.empty()) return;  // all that there is lies between the corners of the grid
@@ -220,6 +238,8 @@ BallMesh ball_mesh(const Balls& balls, const BallMeshOptions& options, Monitor& 
     throw InputError(broken, "repair or remove the ball");
   if (!(options.error > 0 && options.error <= 100))
     throw InputError("the error is not above 0 and at most 100 %", "0.2 is a good start");
+  if (!(options.keep_faces > 0 && options.keep_faces <= 100))
+    throw InputError("the share of triangles to keep is not above 0 and at most 100 %", "100 keeps all");
   return Mesher(balls, options, monitor).run();
 }
 

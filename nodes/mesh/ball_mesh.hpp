@@ -29,6 +29,7 @@ struct BallMeshOptions {
   double error = 0.2;  // % of the longest edge of the bounding box of the balls: distance from the boundary
   std::int64_t most_faces = 20'000'000;  // a mesh of more is refused
   bool self_intersections = true;        // count them
+  double keep_faces = 100;               // % of the triangles that simplification keeps; 100: all
   bool refine_notches = false;           // grid: until their bottoms are within the error, too
 };
 
@@ -54,6 +55,9 @@ struct BallMesh {
 /// - A grid rounds the bottoms of sharp notches off: report.error_back says by how much. With refine_notches
 /// its cells
 ///   become smaller until that is within the error, too, or two rounds bring no progress.
+/// - Simplification keeps closed manifolds what they are. The distances that are reported are measured again,
+/// and may
+///   be above the error.
 /// - Patches of thin parts may cross each other: report.self_intersections. Triangles of a grid lie in
 /// different
 ///   tetrahedra and do not cross.

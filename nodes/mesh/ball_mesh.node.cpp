@@ -30,7 +30,9 @@ struct BallMesh {
         "for. It "
         "does not depend on the order of the balls. Balls that touch are joined. Refuses a single point.");
     d.avoid_when("the surface that the balls stand for is at hand and good: the union is only near it.");
-    d.cites("kornberger2010", "2.8").cites("edelsbrunner1995", "the union of balls and its dual shape");
+    d.cites("kornberger2010", "2.8")
+        .cites("lindstrom1998", "keep_faces")
+        .cites("edelsbrunner1995", "the union of balls and its dual shape");
     d.library("CGAL", geometry::cgal_version());
     d.memory(std::uint64_t{64} << 20, 256);
     d.input("balls", &BallMesh::balls).doc("n closed balls, model units");
@@ -51,6 +53,14 @@ struct BallMesh {
         .at_least(1e-4)
         .at_most(100)
         .doc("how far the mesh may be from the boundary of the union");
+    d.param("keep_faces", &BallMesh::options, &BallMeshOptions::keep_faces)
+        .unit("% of the triangles")
+        .above(0)
+        .at_most(100)
+        .doc(
+            "how many are left by collapsing edges (CGAL, Lindstrom and Turk); the mesh stays a closed "
+            "manifold of the "
+            "same topology, its distance from the union is measured again and may be above `error`");
     d.param("most_faces", &BallMesh::options, &BallMeshOptions::most_faces)
         .unit("1")
         .at_least(1)

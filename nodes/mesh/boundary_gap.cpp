@@ -104,4 +104,32 @@ double boundary_gap(const Balls& balls, const PowerDiagram& diagram, const Simpl
   return most.empty() ? at_least : *std::max_element(most.begin(), most.end());
 }
 
+double mesh_gap(const Balls& balls, const TriangleMesh& mesh, Monitor& monitor) {
+  BoxTree inside(balls.centers.span(), BoxTree::default_leaf_size, monitor);
+  inside.set_slacks(balls.radii);
+  constexpr std::size_t block = 1024;
+  std::vector<double> most(blocks_of(mesh.triangles.size(), block), 0);
+  for_each_block(
+      mesh.triangles.size(), block, monitor, 0, 1, [&](std::size_t b, std::size_t first, std::size_t last) {
+        const auto look_at = [&](Vec3 p) {
+          const auto depth = [&](std::size_t i) { return distance(p, balls.centers[i]) - balls.radii[i]; };
+          most[b] = std::max(most[b], std::abs(inside.smallest(p, infinity, -infinity, depth)));
+        };
+        for (std::size_t t = first; t < last; ++t) {
+          const auto corner = [&](std::size_t k) {
+            return mesh.vertices[static_cast<std::size_t>(mesh.triangles[t][k % 3])];
+          };
+          const Vec3 sum = corner(0) + corner(1) + corner(2);
+          look_at((1.0 / 3) * sum);
+          for (std::size_t k = 0; k < 3; ++k) {
+            look_at(corner(k));
+            look_at(0.5 * corner(k) + (1.0 / 6) * sum);
+            if (mesh.triangles[t][k] < mesh.triangles[t][(k + 1) % 3])
+              look_at(0.5 * (corner(k) + corner(k + 1)));
+          }
+        }
+      });
+  return most.empty() ? 0 : *std::max_element(most.begin(), most.end());
+}
+
 }  // namespace ballflow::geometry

@@ -1,4 +1,4 @@
-// How far the boundary of a union of balls is from a mesh of it.
+// How far the boundary of a union of balls is from a mesh of it, and the mesh from the boundary.
 #pragma once
 
 #include "base/monitor.hpp"
@@ -18,5 +18,9 @@ namespace ballflow::geometry {
 /// Precondition: the mesh has a triangle.
 double boundary_gap(const Balls& balls, const PowerDiagram& diagram, const SimplicialComplex& complex,
                     const TriangleMesh& mesh, double spacing, double at_least, Monitor& monitor);
+
+/// The largest distance of the mesh from the boundary of the union that is found at its corners, in the
+/// middle of its edges and triangles, and half way from there to the corners; model units.
+double mesh_gap(const Balls& balls, const TriangleMesh& mesh, Monitor& monitor);
 
 }  // namespace ballflow::geometry

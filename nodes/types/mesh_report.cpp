@@ -38,16 +38,18 @@ std::string what_differs(const MeshReport& r) {
     add("the mesh is " + std::to_string(r.error) + " off, " + std::to_string(r.error_asked) +
         " was asked for");
   }
-  if (r.error_back > r.error_asked) {
+  if (r.error_back > std::max(r.error_asked, r.error)) {
     add("the bottoms of notches are up to " + std::to_string(r.error_back) + " away from the mesh, " +
-        std::to_string(r.error_asked) + " was asked for: refine_notches, or method exact, come nearer");
+        std::to_string(r.error_asked) + " was asked for" +
+        (r.faces_before > 0 ? "" : ": refine_notches, or method exact, come nearer"));
   }
   return text;
 }
 
 std::string broken_invariant(const MeshReport& r) {
   if (r.made_by > static_cast<std::uint8_t>(MeshedBy::grid)) return "made_by is above 2";
-  if (std::min({r.vertices, r.faces, r.components, r.surfaces, r.rounds}) < 0) return "a count is negative";
+  if (std::min({r.vertices, r.faces, r.components, r.surfaces, r.rounds, r.faces_before}) < 0)
+    return "a count is negative";
   if (r.closed > 1 || r.manifold > 1 || r.oriented > 1)
     return "closed, manifold or oriented is neither 0 nor 1";
   if (!std::isfinite(r.growth)) return "growth is not finite";

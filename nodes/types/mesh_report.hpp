@@ -29,12 +29,14 @@ struct MeshReport {
 
   double error_asked = 0;  // model units
   double error = 0;        // the largest distance of a triangle from the boundary of the union that was found
-  // Of a grid: the largest distance from the mesh that a place of the boundary was found to have, in the
-  // bottom of notches; -1: not measured, because the method keeps both ways within error_asked
+  // Of a grid and a simplified mesh: the largest distance from the mesh that a place of the boundary was
+  // found to have, in the bottom of notches; -1: not measured, because method exact keeps both ways within
+  // error_asked
   double error_back = -1;
-  double growth = 0;        // the most that a radius grew, or shrank where it is negative, model units
-  double cell = 0;          // edge of a cell of the grid, model units; 0 without a grid
-  std::int64_t rounds = 0;  // how often arcs were divided again, or the grid was refined
+  std::int64_t faces_before = 0;  // simplification; 0: there was none
+  double growth = 0;              // the most that a radius grew, or shrank where it is negative, model units
+  double cell = 0;                // edge of a cell of the grid, model units; 0 without a grid
+  std::int64_t rounds = 0;        // how often arcs were divided again, or the grid was refined
   std::int64_t self_intersections = -1;  // pairs of triangles that cross; -1: not counted
 
   /// Betti numbers of the union that was meshed.

@@ -24,7 +24,10 @@ void TypeOf<geometry::MeshReport>::declare(TypeDecl<geometry::MeshReport>& d) {
   d.scalar("error_asked", &T::error_asked).doc("model units");
   d.scalar("error", &T::error).doc("largest distance of the mesh from the boundary, model units");
   d.scalar("error_back", &T::error_back)
-      .doc("of a grid: largest distance of the boundary from the mesh, model units; -1: not measured");
+      .doc(
+          "of a grid or simplified mesh: largest distance of the boundary from the mesh, model units; -1: "
+          "not measured");
+  d.scalar("faces_before", &T::faces_before).doc("triangles before simplification; 0: there was none");
   d.scalar("growth", &T::growth).doc("most that a radius grew; below 0: shrank; model units");
   d.scalar("cell", &T::cell).doc("edge of a cell of the grid, model units; 0: no grid");
   d.scalar("rounds", &T::rounds).doc("how often arcs were divided again, or the grid was refined");
@@ -39,26 +42,29 @@ void TypeOf<geometry::MeshReport>::declare(TypeDecl<geometry::MeshReport>& d) {
   d.summary("error_asked", "model units");
   d.summary("error", "the largest distance of the mesh from the boundary of the union, model units");
   d.summary("error_back",
-            "the largest distance of the boundary from the mesh, in notches; null unless made by a grid");
+            "the largest distance of the boundary from the mesh, in notches; null for exact meshes");
+  d.summary("faces_before", "triangles before simplification; null where there was none");
   d.summary("growth", "the most that a radius grew, below 0 shrank, so that nothing is a tie; model units");
   d.summary("cell", "edge of a cell of the grid, model units; null without a grid");
   d.summary("self_intersections", "pairs of triangles that cross; null when they were not counted");
   d.summarize([](const T& v) {
     const std::string differs = geometry::what_differs(v);
-    return Summary{{"made_by", std::string(geometry::in_words(static_cast<geometry::MeshedBy>(v.made_by)))},
-                   {"faces", v.faces},
-                   {"components", v.components},
-                   {"euler", v.euler},
-                   {"euler_given", v.euler_given},
-                   {"euler_meshed", v.euler_meshed},
-                   {"differs", differs.empty() ? SummaryValue(nullptr) : SummaryValue(differs)},
-                   {"error_asked", v.error_asked},
-                   {"error", v.error},
-                   {"error_back", v.error_back < 0 ? SummaryValue(nullptr) : SummaryValue(v.error_back)},
-                   {"growth", v.growth},
-                   {"cell", v.cell > 0 ? SummaryValue(v.cell) : SummaryValue(nullptr)},
-                   {"self_intersections",
-                    v.self_intersections < 0 ? SummaryValue(nullptr) : SummaryValue(v.self_intersections)}};
+    return Summary{
+        {"made_by", std::string(geometry::in_words(static_cast<geometry::MeshedBy>(v.made_by)))},
+        {"faces", v.faces},
+        {"components", v.components},
+        {"euler", v.euler},
+        {"euler_given", v.euler_given},
+        {"euler_meshed", v.euler_meshed},
+        {"differs", differs.empty() ? SummaryValue(nullptr) : SummaryValue(differs)},
+        {"error_asked", v.error_asked},
+        {"error", v.error},
+        {"error_back", v.error_back < 0 ? SummaryValue(nullptr) : SummaryValue(v.error_back)},
+        {"faces_before", v.faces_before > 0 ? SummaryValue(v.faces_before) : SummaryValue(nullptr)},
+        {"growth", v.growth},
+        {"cell", v.cell > 0 ? SummaryValue(v.cell) : SummaryValue(nullptr)},
+        {"self_intersections",
+         v.self_intersections < 0 ? SummaryValue(nullptr) : SummaryValue(v.self_intersections)}};
   });
   d.check([](const T& v) { return geometry::broken_invariant(v); });
 }
