@@ -15,6 +15,7 @@ namespace {
 struct LocalFeatureSize {
   In<geometry::PointSet> points;
   In<geometry::PoleSet> poles;
+  InList<geometry::Balls> balls;
   InList<geometry::MedialAxis> axes;
   In<geometry::TriangleMesh> mesh;
   Out<geometry::LocalFeatureSize> size;
@@ -41,6 +42,12 @@ struct LocalFeatureSize {
     d.memory(1 << 20, 4.0);
     d.input("points", &LocalFeatureSize::points).doc("the sample, n points");
     d.input("poles", &LocalFeatureSize::poles).doc("its poles, labelled or not");
+    d.input("balls", &LocalFeatureSize::balls)
+        .optional()
+        .doc(
+            "polar balls that were kept, inner and outer: D^ is then the distance to the nearest of their "
+            "centres, "
+            "and the poles do not count; the bounds above hold for all poles only");
     d.input("axes", &LocalFeatureSize::axes)
         .optional()
         .doc("medial axes (node MedialAxis) of the union of the inner and of that of the outer balls");
@@ -58,8 +65,15 @@ struct LocalFeatureSize {
   void run(RunContext& context) {
     ContextMonitor monitor(context);
     geometry::PartMonitor measuring(monitor, 0, 0.2), to_axes(monitor, 0.2, 0.4), to_r(monitor, 0.4, 1);
-    geometry::LocalFeatureSize result = geometry::local_feature_size(*points, *poles, measuring);
-    std::function<double(geometry::Vec3)> distance = geometry::PoleDistance(*poles);
+    std::vector<geometry::Vec3> kept;
+    for (const geometry::Balls& some : balls)
+      kept.insert(kept.end(), some.centers.begin(), some.centers.end());
+    const geometry::PoleDistance to_pole =
+        balls.empty() ? geometry::PoleDistance(*poles) : geometry::PoleDistance(std::move(kept));
+    geometry::LocalFeatureSize result = balls.empty()
+                                            ? geometry::local_feature_size(*points, *poles, measuring)
+                                            : geometry::local_feature_size(*points, to_pole, measuring);
+    std::function<double(geometry::Vec3)> distance = to_pole;
     if (!axes.empty()) {
       const std::vector<geometry::MedialAxis> all(axes.begin(), axes.end());
       const geometry::AxisDistance to_axis(all, to_axes);

@@ -3,6 +3,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -30,6 +31,9 @@ PoleDistance::PoleDistance(const PoleSet& poles, Monitor& monitor) {
   tree_ = BoxTree(poles_, BoxTree::default_leaf_size, monitor);
 }
 
+PoleDistance::PoleDistance(std::vector<Vec3> poles, Monitor& monitor)
+    : poles_(std::move(poles)), tree_(poles_, BoxTree::default_leaf_size, monitor) {}
+
 double PoleDistance::operator()(Vec3 p) const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   return tree_.smallest(p, infinity, -infinity, [&](std::size_t i) { return distance(p, poles_[i]); });
@@ -42,7 +46,11 @@ LocalFeatureSize local_feature_size(const PointSet& sample, const PoleSet& poles
                          " samples, but there are " + std::to_string(n),
                      "connect the points that the poles were computed from");
   }
-  const PoleDistance to_pole(poles, monitor);
+  return local_feature_size(sample, PoleDistance(poles, monitor), monitor);
+}
+
+LocalFeatureSize local_feature_size(const PointSet& sample, const PoleDistance& to_pole, Monitor& monitor) {
+  const std::size_t n = sample.points.size();
   monitor.step(0.3);
   std::vector<double> distances(n);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 1024), [&](const auto& range) {
@@ -52,7 +60,9 @@ LocalFeatureSize local_feature_size(const PointSet& sample, const PoleSet& poles
     }
   });
   for (std::size_t s = 0; s < n; ++s) {
-    if (distances[s] > 0) continue;
+    if (distances[s] > 0 && std::isfinite(distances[s])) continue;
+    if (!std::isfinite(distances[s]))
+      throw InputError("there is no pole", "connect polar balls, at least one");
     throw InputError("a pole lies at sample " + std::to_string(s),
                      "scale the model up: its features are beyond the resolution of doubles");
   }

@@ -17,6 +17,8 @@ class PoleDistance {
  public:
   /// Throws InputError when samples have no pole. Precondition: broken_invariant(poles) is empty.
   explicit PoleDistance(const PoleSet& poles, Monitor& monitor = no_monitor());
+  /// Of these places alone, any number of them.
+  explicit PoleDistance(std::vector<Vec3> poles, Monitor& monitor = no_monitor());
 
   /// Infinite without samples.
   double operator()(Vec3 p) const;
@@ -31,6 +33,12 @@ class PoleDistance {
 /// pole is where a sample is.
 /// Precondition: broken_invariant(poles) is empty.
 LocalFeatureSize local_feature_size(const PointSet& sample, const PoleSet& poles,
+                                    Monitor& monitor = no_monitor());
+
+/// The same of fewer poles: those of a pruned transform, which noise did not make (thesis, 4.9.3, third
+/// method). D^ is not smaller then, and the bounds of LocalFeatureSize do not hold. Throws InputError when
+/// there are samples and no pole, and when a pole is where a sample is.
+LocalFeatureSize local_feature_size(const PointSet& sample, const PoleDistance& to_pole,
                                     Monitor& monitor = no_monitor());
 
 }  // namespace ballflow::geometry

@@ -145,6 +145,19 @@ TEST_P(EveryFeatureSize, measures_with_equal_digests_for_any_number_of_threads) 
 INSTANTIATE_TEST_SUITE_P(FeatureSizes, EveryFeatureSize, testing::ValuesIn(names_in("graphs/feature_size")),
                          [](const auto& instance) { return instance.param; });
 
+class EveryLfsFrom : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryLfsFrom, gives_a_surface_with_equal_digests_for_any_number_of_threads) {
+  const Dag dag = load_graph(test::source_file("graphs/reconstruct.json"), registry(),
+                             {{"input", "shape:torus?n=2000"}, {"lfs_from", GetParam()}});
+  const auto results = run_with_threads(dag, {1, 2, 4});
+  ASSERT_EQ(results[0].status, ExitCode::ok);
+  expect_equal_digests(dag, results);
+}
+
+INSTANTIATE_TEST_SUITE_P(LfsFrom, EveryLfsFrom, testing::ValuesIn(names_in("graphs/lfs_from")),
+                         [](const auto& instance) { return instance.param; });
+
 INSTANTIATE_TEST_SUITE_P(Repairs, EveryRepair, testing::ValuesIn(names_in("graphs/repair")),
                          [](const auto& instance) { return instance.param; });
 

@@ -56,6 +56,24 @@ TEST(local_feature_size, does_not_count_third_poles) {
   EXPECT_EQ(local_feature_size(sample, poles).pole_distances[0], 2);
 }
 
+TEST(local_feature_size, of_few_poles_is_the_distance_to_the_nearest_of_them) {
+  const Mesh torus = test::torus(40, 20, 0.3);
+  const PoleSet poles = voronoi_poles(torus.points(), {});
+  std::vector<Vec3> few;
+  for (std::size_t i = 0; i < poles.size(); i += 7) few.push_back(poles.centers[i]);
+  const LocalFeatureSize all = local_feature_size(torus.points(), poles);
+  const LocalFeatureSize size = local_feature_size(torus.points(), PoleDistance(few));
+  ASSERT_EQ(broken_invariant(size), "");
+  EXPECT_EQ(size.third_neighbors, all.third_neighbors);
+  for (std::size_t s = 0; s < torus.vertices.size(); ++s) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Vec3& p : few) least = std::min(least, distance(torus.vertices[s], p));
+    EXPECT_EQ(size.pole_distances[s], least) << s;
+  }
+  EXPECT_THROW(local_feature_size(torus.points(), PoleDistance(std::vector<Vec3>{})), InputError);
+  EXPECT_THROW(local_feature_size(torus.points(), PoleDistance(torus.vertices)), InputError);
+}
+
 TEST(local_feature_size, of_a_torus_bounds_what_the_formula_says) {
   // The medial axis is the core circle and the axis of rotation; lfs <= 1.2802 D^ (Lemma 4.8), and D^ comes
   // close to it as the sample is dense.
