@@ -105,7 +105,8 @@ double area_of(const TriangleMesh& mesh, const Triangle& t) {
   return 0.5 * length(cross(b - a, c - a));
 }
 
-/// Leaves out small components and vertices of no triangle.
+}  // namespace
+
 void drop_specks(CellBoundary& surface, double smallest) {
   const auto& triangles = surface.mesh.triangles;
   DisjointSets parts(surface.mesh.vertices.size());
@@ -121,7 +122,7 @@ void drop_specks(CellBoundary& surface, double smallest) {
   std::vector<std::int32_t> number(surface.mesh.vertices.size(), -1), ball;
   std::vector<Vec3> vertices;
   std::vector<Triangle> kept;
-  std::vector<std::uint8_t> filled;
+  std::vector<CellFacet> facets;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     if (area[parts.root(triangles[i][0])] < smallest * largest) continue;
     Triangle t = triangles[i];
@@ -134,14 +135,12 @@ void drop_specks(CellBoundary& surface, double smallest) {
       v = number[at(v)];
     }
     kept.push_back(t);
-    filled.push_back(surface.filled[i]);
+    facets.push_back(surface.facets[i]);
   }
   surface.mesh = {std::move(vertices), std::move(kept)};
   surface.ball = std::move(ball);
-  surface.filled = std::move(filled);
+  surface.facets = std::move(facets);
 }
-
-}  // namespace
 
 CellBoundary cell_boundary(const PowerDiagram& diagram, const std::vector<std::uint8_t>& inside,
                            const CellBoundaryOptions& options, Monitor& monitor) {
@@ -203,8 +202,7 @@ CellBoundary cell_boundary(const PowerDiagram& diagram, const std::vector<std::u
   std::vector<Triangle> all;
   for (std::size_t f = 0; f < facets.size(); ++f) {
     split(triangles[f], middle[f], all);
-    const bool in_complex = (diagram.in_complex[at(facets[f].inner)] >> facets[f].k & 1) != 0;
-    result.filled.resize(all.size(), in_complex ? 0 : 1);
+    result.facets.resize(all.size(), {facets[f].inner, static_cast<std::uint8_t>(facets[f].k)});
   }
   result.mesh = {std::move(vertices), std::move(all)};
   drop_specks(result, options.smallest_component);

@@ -11,11 +11,16 @@
 
 namespace ballflow::geometry {
 
+/// A facet of a cell by the corner opposite to it.
+struct CellFacet {
+  std::int32_t cell = 0;  // inside
+  std::uint8_t corner = 0;
+};
+
 struct CellBoundary {
   TriangleMesh mesh;  // closed, every edge in two triangles that run through it in opposite directions
-  std::vector<std::int32_t> ball;  // per vertex: the ball whose centre it is, -1 for the midpoint of an edge
-  // Per triangle 1 where it is no facet of the dual complex (nothing of the union is there), 0 where it is.
-  std::vector<std::uint8_t> filled;
+  std::vector<std::int32_t> ball;   // per vertex: the ball whose centre it is, -1 for the midpoint of an edge
+  std::vector<CellFacet> facets;    // per triangle: the facet that it is, or a part of
   std::int64_t split_vertices = 0;  // copies of balls' centres beyond the first
   std::int64_t midpoints = 0;
   std::int64_t specks = 0;  // components left out, smaller than `smallest_component` of the largest
@@ -34,5 +39,8 @@ struct CellBoundaryOptions {
 /// `inside`: per cell 1 or 0, 0 for infinite ones. The diagram is three-dimensional.
 CellBoundary cell_boundary(const PowerDiagram& diagram, const std::vector<std::uint8_t>& inside,
                            const CellBoundaryOptions& options = {}, Monitor& monitor = no_monitor());
+
+/// Leaves out components smaller than `smallest` of the area of the largest, and vertices of no triangle.
+void drop_specks(CellBoundary& surface, double smallest);
 
 }  // namespace ballflow::geometry

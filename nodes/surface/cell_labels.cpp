@@ -96,10 +96,14 @@ class Cutter {
       result.inside.push_back(node >= 0 ? found.at_source[at(node)] : 0);
     }
     double all = 0, wrong = 0;
+    std::vector<double> against(diagram_.size(), 0);  // the label of each cell, less what is for it
     for (const Vote& vote : votes_) {
+      const bool right = vote.inner == (result.inside[at(vote.cell)] == 1);
       all += vote.weight;
-      if (vote.inner != (result.inside[at(vote.cell)] == 1)) wrong += vote.weight;
+      if (!right) wrong += vote.weight;
+      against[at(vote.cell)] += right ? -vote.weight : vote.weight;
     }
+    for (const double weight : against) result.contradicted.push_back(weight > 0 ? 1 : 0);
     result.overruled = all > 0 ? wrong / all : 0;
     return result;
   }

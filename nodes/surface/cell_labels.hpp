@@ -14,7 +14,8 @@ namespace ballflow::geometry {
 struct CellLabels {
   std::vector<std::uint8_t> inside;  // per cell, 1 or 0; infinite cells are outside
   double overruled = 0;  // share of the weight of votes on the other side than the vote, 0 without votes
-  std::int64_t mixed_voids = 0;  // voids that were cut
+  std::vector<std::uint8_t> contradicted;  // per cell: 1 where the votes in it say the contrary
+  std::int64_t mixed_voids = 0;            // voids that were cut
 };
 
 /// Poles vote: one that is labelled, bounded and not uncertain says on which side the cell is that it lies

@@ -11,16 +11,26 @@
 namespace ballflow::geometry {
 
 struct SurfaceMeshOptions {
-  // A surface is refused that contradicts more of what the poles say, or whose area is more holes than that.
-  // Of clouds of closed surfaces without sharp edges hardly any contradicts more than .004.
+  // A closed surface is refused that contradicts more of what the poles say, or whose area is more gaps than
+  // that. Of clouds of closed surfaces without sharp edges hardly any contradicts more than .004.
   double most_overruled = 0.05;
   double most_filled = 0.5;
+  // Or whose area is more holes than that: gaps that are so many times as large as the balls around them, and
+  // as the distance to the third neighbour.
+  double most_holes = 0.1;
+  double hole = 1.4;
+  // Open: holes are not closed but left, but those smaller than `smallest_hole` of the area. Then neither
+  // most_filled nor most_holes matters, and most_overruled three times.
+  bool open = false;
+  double smallest_hole = 1e-3;
+  // Any surface is refused that passes more balls by, as share of the squared radii of all.
+  double most_left_out = 0.05;
   double smallest_component = 0.01;  // of the area of the largest: smaller components are left out
 };
 
 struct SurfaceMesh {
   TriangleMesh
-      mesh;  // closed, oriented 2-manifold; vertices are centres of balls, unmoved, but for midpoints
+      mesh;  // oriented 2-manifold, closed but where `open`; vertices are centres of balls, but for midpoints
   SurfaceReport report;
 };
 
@@ -33,9 +43,12 @@ struct SurfaceMesh {
 /// - `poles`, labelled, with their `uncertain` flags: of `sample`, all samples
 /// - does not depend on the number of threads, nor on the order of samples but by the order of vertices
 ///
-/// Throws InputError where the evidence says that there is no solid (more than `most_overruled` of the poles
-/// are on the wrong side, more than `most_filled` of the area closes holes, nothing is inside), for balls in
-/// one plane, and for poles of other samples.
+/// What speaks against a surface is in the report (surface_evidence.hpp). Warns where more than .5 % of the
+/// balls are passed by, as with sheets as thin as the spacing, and where holes are closed.
+///
+/// Throws InputError where the evidence says that there is no solid (votes on the wrong side, gaps, holes,
+/// balls passed by, beyond the options; nothing is inside), for balls in one plane, and for poles and balls
+/// of other samples.
 SurfaceMesh surface_mesh(const PowerDiagram& diagram, const PoleSet& poles, const PointSet& sample,
                          const SurfaceMeshOptions& options, Monitor& monitor = no_monitor());
 

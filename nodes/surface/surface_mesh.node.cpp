@@ -21,7 +21,7 @@ struct SurfaceMesh {
   SurfaceMeshOptions options;
 
   static void declare(NodeDecl<SurfaceMesh>& d) {
-    d.id("SurfaceMesh", 1).summary("A closed surface through the kept samples of a cloud of points.");
+    d.id("SurfaceMesh", 2).summary("A closed surface through the kept samples of a cloud of points.");
     d.doc(
         "The triangles of the zero alpha-shape of surface balls have holes and edges of many triangles on "
         "real clouds. "
@@ -35,7 +35,9 @@ struct SurfaceMesh {
         "was; its "
         "vertices are samples, unmoved. Refuses clouds that do not look like the surface of a solid, with "
         "the reason: "
-        "open scans, parts with sharp edges, sheets thinner than the spacing.");
+        "open scans, parts with sharp edges, sheets thinner than the spacing. With open = true holes stay "
+        "open: what closes gaps wider than the balls around them is taken out again, and the surface has "
+        "boundary loops. Scans of one side whose poles do not tell an inside are refused all the same.");
     d.avoid_when(
         "the cloud is clean and dense and every sample should be a vertex: CGAL's advancing front is as "
         "good.");
@@ -47,8 +49,9 @@ struct SurfaceMesh {
     d.input("diagram", &SurfaceMesh::diagram).doc("the power diagram of the kept surface balls");
     d.input("poles", &SurfaceMesh::poles).doc("labelled poles of all samples");
     d.input("points", &SurfaceMesh::points).doc("all samples");
-    d.output("mesh", &SurfaceMesh::mesh).doc("a closed, oriented 2-manifold");
-    d.output("report", &SurfaceMesh::report).doc("genus, what was filled, and what the poles say against it");
+    d.output("mesh", &SurfaceMesh::mesh).doc("an oriented 2-manifold, closed but with open = true");
+    d.output("report", &SurfaceMesh::report)
+        .doc("genus, what was filled, what the poles say against it, and what it passes by");
     d.param("most_overruled", &SurfaceMesh::options, &SurfaceMeshOptions::most_overruled)
         .unit("share of the votes")
         .at_least(0)
@@ -58,7 +61,29 @@ struct SurfaceMesh {
         .unit("share of the area")
         .at_least(0)
         .at_most(1)
-        .doc("a surface that closes more holes is refused");
+        .doc("a closed surface that closes more gaps between balls is refused");
+    d.param("most_holes", &SurfaceMesh::options, &SurfaceMeshOptions::most_holes)
+        .unit("share of the area")
+        .at_least(0)
+        .at_most(1)
+        .doc("a closed surface that closes more holes is refused");
+    d.param("hole", &SurfaceMesh::options, &SurfaceMeshOptions::hole)
+        .unit("times the balls around, and the distance to the third neighbour")
+        .at_least(0)
+        .at_most(1000)
+        .doc("a gap that is larger is a hole");
+    d.param("open", &SurfaceMesh::options, &SurfaceMeshOptions::open)
+        .doc("leave holes open: a surface with boundary loops, of which no gap is refused");
+    d.param("smallest_hole", &SurfaceMesh::options, &SurfaceMeshOptions::smallest_hole)
+        .unit("share of the area")
+        .at_least(0)
+        .at_most(1)
+        .doc("open: smaller holes are closed all the same");
+    d.param("most_left_out", &SurfaceMesh::options, &SurfaceMeshOptions::most_left_out)
+        .unit("share of the squared radii")
+        .at_least(0)
+        .at_most(1)
+        .doc("a surface that passes by more of the kept balls, farther than their radius, is refused");
     d.param("smallest_component", &SurfaceMesh::options, &SurfaceMeshOptions::smallest_component)
         .unit("share of the area of the largest component")
         .at_least(0)

@@ -68,6 +68,7 @@ class Artifact:
             arrays[name] = rows(values, shape[1]) if len(shape) == 2 else list(values)
         self.arrays = arrays
         self.point_numbers = None
+        self.coloured = False
         self.normals = self.radii = self.point_codes = self.face_codes = self.face_numbers = None
         self.points, self.edges, self.faces = [], [], []
         getattr(self, "read_" + self.type)(arrays)
@@ -79,7 +80,7 @@ class Artifact:
             self.all_triangles = [tuple(number[v] for v in t) for t in arrays["triangles"]]
         used = {v for element in self.edges + self.faces for v in element}
         self.dots = [v for v in range(len(self.points)) if v not in used]
-        if self.type == "TriangleMesh":
+        if self.type in ("TriangleMesh", "SurfaceReport"):
             self.dots = []
         if self.type == "SimplicialComplex":
             self.dots = [i for i, c in enumerate(arrays["vertex_classes"]) if c == SINGULAR]
@@ -126,12 +127,18 @@ class Artifact:
         self.points = a["points"]
         self.point_numbers = ("vertex", a["vertices"]) if a["vertices"] else ("ball", a["balls"])
 
+    def read_SurfaceReport(self, a):
+        self.points, self.faces = a["vertices"], a["triangles"]
+        codes = [3 if wrong else gap for gap, wrong in zip(a["filled"], a["contradicted"])]
+        self.face_codes = ("evidence", codes, 0)
+        self.coloured = True
+
     def read_CoverState(self, a):
         pass
 
     read_CoverCheck = read_Comparison = read_Bisection = read_CoverState
     read_TopologyTable = read_TopologyCheck = read_Refinement = read_CoverState
-    read_MassProperties = read_SurfaceBallsReport = read_SurfaceReport = read_CoverState
+    read_MassProperties = read_SurfaceBallsReport = read_CoverState
     read_NoiseReport = read_CoverState
 
     def balls(self):
@@ -196,6 +203,14 @@ def check_ply(data, artifact):
         if values:
             names.append(values[0])
             faces = [(*f, value) for f, value in zip(faces, values[1])]
+    if artifact.coloured and faces:
+        # One colour per code, and never one for two.
+        colours = [f[-3:] for f in found["face"][1]]
+        codes = artifact.face_codes[1]
+        same(len(set(zip(codes, colours))), len(set(codes)), "colours")
+        same(len(set(colours)), len(set(codes)), "colours")
+        names += ["red", "green", "blue"]
+        faces = [(*f, *colour) for f, colour in zip(faces, colours)]
     if faces:
         same(found["face"], (names, faces), "faces")
     if artifact.edges:

@@ -287,7 +287,8 @@ class Reader {
     }
     for (const GraphInput& input : file_.inputs) {
       // Of a loop's body: the state at the beginning, which an iteration may replace without a look at it.
-      if (file_.output_index.contains(input.name)) continue;
+      // A graph without nodes is the choice to do nothing, among others that need what it is given.
+      if (file_.output_index.contains(input.name) || file_.nodes.empty()) continue;
       if (!input.used && !input.broken && !input.param)
         findings_.warning(file_, input.offset, "input " + in_quotes(input.name) + " is not used");
     }

@@ -14,7 +14,7 @@ const std::vector<TypeFormats>& table() {
       point_set_formats(),      triangle_mesh_formats(),      balls_formats(),
       pole_set_formats(),       local_feature_size_formats(), growth_formats(),
       cover_state_formats(),    simplicial_complex_formats(), medial_axis_formats(),
-      topology_table_formats(), sample_assignment_formats()};
+      topology_table_formats(), sample_assignment_formats(),  surface_report_formats()};
   return types;
 }
 

@@ -1,15 +1,20 @@
 // Artifacts as files that other programs read.
 //
+// clang-format off
 //   PointSet           ply xyz csv off vtp npy glb
 //   TriangleMesh       ply obj off stl vtp glb
 //   Balls              ply csv obj vtp npy glb ma sph yaml urdf
-//   PoleSet            ply csv vtp npy glb             label: 0 unlabelled, 1 inner, 2 outer
-//   LocalFeatureSize   csv ply vtp npy glb             radius: D^, the distance to the nearest pole
-//   Growth             csv ply vtp npy glb             grown balls; stop: 0 wish, 1 poles, 2 Gabriel, 3
-//   common SimplicialComplex  ply obj off stl vtp glb ma csv npy MedialAxis         ply obj off stl vtp glb
-//   ma csv npy CoverState         json scp lp csv                 matrix as OR-Library and LP files, choices
-//   as csv SampleAssignment   csv ply vtp glb                 vertex (or ball): which one each sample belongs
-//   to every type         json safetensors                summary and shapes; the artifact, byte for byte
+//   PoleSet            ply csv vtp npy glb           label: 0 unlabelled, 1 inner, 2 outer
+//   LocalFeatureSize   csv ply vtp npy glb           radius: D^, the distance to the nearest pole
+//   Growth             csv ply vtp npy glb           grown balls; stop: 0 wish, 1 poles, 2 Gabriel, 3 common
+//   SimplicialComplex  ply obj off stl vtp glb ma csv npy
+//   MedialAxis         ply obj off stl vtp glb ma csv npy
+//   CoverState         json scp lp csv               matrix as OR-Library and LP files, choices as csv
+//   SampleAssignment   csv ply vtp glb               vertex (or ball): which one each sample belongs to
+//   SurfaceReport      json ply vtp glb              evidence: 0 alpha-shape, 1 closes a gap, 2 a hole,
+//                                                    3 contradicted by poles; ply also with colours
+//   every type         json safetensors              summary and shapes; the artifact, byte for byte
+// clang-format on
 //
 // The first format of a line is the default; it is json where there is no other. formats.hpp says what each
 // has room for: only ply, vtp, ma, sph, csv, npy, yaml and urdf keep radii, only ply, obj, vtp, glb and ma

@@ -40,6 +40,7 @@ TypeFormats simplicial_complex_formats();
 TypeFormats medial_axis_formats();
 TypeFormats topology_table_formats();
 TypeFormats sample_assignment_formats();
+TypeFormats surface_report_formats();
 
 /// What every type can be written as.
 std::vector<Format> generic_formats();

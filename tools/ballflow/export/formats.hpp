@@ -8,8 +8,8 @@
 
 namespace ballflow {
 
-/// PLY, binary, doubles. Points with normals (nx, ny, nz), radius, code and number; faces with code; edges
-/// (vertex1, vertex2).
+/// PLY, binary, doubles. Points with normals (nx, ny, nz), radius, code and number; faces with code and
+/// colour; edges (vertex1, vertex2).
 void write_ply(const PolyData& data, OutputFile& out);
 
 /// Wavefront OBJ: points, polygons, edges as lines.

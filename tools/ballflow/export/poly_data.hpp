@@ -45,7 +45,8 @@ struct PolyData {
   // Corners of polygon i: polygon_corners[polygon_offsets[i] .. polygon_offsets[i + 1])
   std::vector<std::int64_t> polygon_offsets{0};
   geometry::Array<std::int32_t> polygon_corners;
-  Codes polygon_codes;                 // one per polygon where it has a name
+  Codes polygon_codes;                                       // one per polygon where it has a name
+  std::vector<std::array<std::uint8_t, 3>> polygon_colours;  // one per polygon or none: red, green, blue
   std::uint8_t dot_and_edge_code = 0;  // what polygon_codes would say of every dot and edge
   Numbers polygon_numbers;             // one per polygon where it has a name; -1 for every dot and edge
 

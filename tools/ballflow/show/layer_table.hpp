@@ -24,5 +24,6 @@ TypeLayers simplicial_complex_layers();
 TypeLayers medial_axis_layers();
 TypeLayers refinement_layers();
 TypeLayers sample_assignment_layers();
+TypeLayers surface_report_layers();
 
 }  // namespace ballflow::show

@@ -128,10 +128,14 @@ std::string refinement(const Json& s) {
 
 std::string surface(const Json& s) {
   std::string text = counted(s, "components", "component") + ", genus " + number(s, "genus");
+  if (s.at("boundary_loops") != 0) text += ", " + counted(s, "boundary_loops", "boundary loop");
   if (s.at("filled") != 0)
-    text += ", " + percent(s.at("filled_area").get<double>()) + " of the area closes holes";
+    text += ", " + percent(s.at("filled_area").get<double>()) + " of the area closes gaps";
+  if (s.at("wide_area") != 0 && s.at("boundary_loops") == 0)
+    text += ", " + percent(s.at("wide_area").get<double>()) + " holes";
   if (s.at("overruled") != 0)
     text += ", " + percent(s.at("overruled").get<double>()) + " of the poles overruled";
+  if (s.at("left_out") != 0) text += ", passes by " + counted(s, "left_out", "sample");
   if (s.at("specks") != 0) text += ", " + counted(s, "specks", "speck") + " left out";
   return text;
 }

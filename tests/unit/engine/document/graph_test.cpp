@@ -206,6 +206,17 @@ TEST(graph, warns_about_an_unused_input_unless_it_is_the_first_state_of_a_loop) 
   EXPECT_EQ(warnings("b"), std::vector<std::string>{});
 }
 
+TEST(graph, warns_about_no_input_of_a_graph_without_nodes) {
+  test::TempFolder folder;
+  test::write_file(
+      folder.file("nothing.json"),
+      R"({"inputs":{"p":{"type":"Points"},"b":{"type":"Balls"}},"nodes":{},"outputs":{"same":"inputs.b"}})");
+  test::write_file(folder.file("top.json"), R"({"nodes":{"l":{"type":"Load","params":{"file":"x"}},
+    "g":{"type":"Grow","inputs":{"points":"l.points"}},
+    "s":{"graph":"nothing.json","inputs":{"p":"l.points","b":"g.balls"}}},"outputs":{"b":"s.same"}})");
+  EXPECT_TRUE(load(folder.file("top.json")).warnings.empty());
+}
+
 TEST(graph, accepts_a_byte_order_mark_and_windows_line_ends) {
   const Dag dag = parse(
       "\xef\xbb\xbf{\r\n\"nodes\":{\r\n\"l\":{\"type\":\"Load\",\"params\":{\"file\":\"x\"}}},\"outputs\":{"

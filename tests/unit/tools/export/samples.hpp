@@ -43,6 +43,16 @@ inline geometry::SampleAssignment sample_assignment(bool surface) {
   return assignment;
 }
 
+inline geometry::SurfaceReport sample_surface_report() {
+  geometry::SurfaceReport report;
+  report.vertices = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
+  report.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  report.vertex_balls = {0, 1, -1, 3};
+  report.filled = {0, 1, 2, 2};
+  report.contradicted = {0, 0, 0, 1};
+  return report;
+}
+
 inline geometry::Growth sample_growth() {
   geometry::Growth growth;
   growth.centers = {odd, far};

@@ -104,6 +104,18 @@ TEST(scene, colours_samples_by_the_vertex_that_they_belong_to) {
   EXPECT_EQ(layers[0].find("ball")->values, (std::vector<double>{4, 4, 5}));
 }
 
+TEST(scene, colours_a_surface_by_what_speaks_against_it) {
+  SurfaceReport report;
+  report.vertices = std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  report.triangles = std::vector<Triangle>{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  report.vertex_balls = std::vector<std::int32_t>{0, 1, 2, 3};
+  report.filled = std::vector<std::uint8_t>{0, 1, 2, 2};
+  report.contradicted = std::vector<std::uint8_t>{0, 0, 0, 1};
+  const auto layers = shown(report);
+  ASSERT_EQ(names(layers), (Names{"evidence"}));
+  EXPECT_EQ(layers[0].find(layers[0].colour_by)->values, (std::vector<double>{0, 1, 2, 3}));
+}
+
 TEST(scene, shows_of_a_complex_only_what_can_be_seen) {
   // Two tetrahedra with a triangle in common (interior), an edge that hangs on vertex 4, and vertex 6 alone.
   SimplicialComplex complex;

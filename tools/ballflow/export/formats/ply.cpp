@@ -39,6 +39,9 @@ void write_ply(const PolyData& data, OutputFile& out) {
         << " int vertex_indices\n";
     code_property(out, data.polygon_codes);
     if (!data.polygon_numbers.name.empty()) out << "property int " << data.polygon_numbers.name << '\n';
+    if (!data.polygon_colours.empty()) {
+      for (const char* channel : {"red", "green", "blue"}) out << "property uchar " << channel << '\n';
+    }
   }
   if (!data.edges.empty()) {
     out << "element edge " << data.edges.size() << "\nproperty int vertex1\nproperty int vertex2\n";
@@ -62,6 +65,9 @@ void write_ply(const PolyData& data, OutputFile& out) {
     for (const std::int32_t v : corners) out.raw(v);
     if (!data.polygon_codes.name.empty()) out.raw(data.polygon_codes.values[i]);
     if (!data.polygon_numbers.name.empty()) out.raw(data.polygon_numbers.values[i]);
+    if (!data.polygon_colours.empty()) {
+      for (const std::uint8_t channel : data.polygon_colours[i]) out.raw(channel);
+    }
   }
   for (const Edge& edge : data.edges) {
     for (const std::int32_t v : edge) out.raw(v);
