@@ -59,7 +59,7 @@ void check_closed(const SurfaceEvidence& evidence, const SurfaceMeshOptions& opt
 }
 
 void warn(const SurfaceEvidence& evidence, const PowerDiagram& diagram, bool open, Monitor& monitor) {
-  constexpr double many = 0.005, wide = 0.01;
+  constexpr double many = 0.005, wide = 0.01, gaps = 0.5;
   const double balls = static_cast<double>(diagram.centers.size());
   if (static_cast<double>(evidence.left_out) > many * balls) {
     const double box = bounding_box(diagram.centers.span()).longest_edge();
@@ -68,6 +68,11 @@ void warn(const SurfaceEvidence& evidence, const PowerDiagram& diagram, bool ope
                  percent(evidence.farthest / box) +
                  " of the box: sheets as thin as the spacing may be missing, and parts as near to each other "
                  "may have grown together");
+  }
+  if (evidence.filled_area > gaps) {
+    monitor.warn(percent(evidence.filled_area) +
+                 " of the area closes gaps between balls: the samples are noisy, or too far apart for the "
+                 "features");
   }
   if (!open && evidence.wide_area > wide) {
     monitor.warn("the surface closes holes: " + percent(evidence.wide_area) +

@@ -14,7 +14,7 @@ struct SurfaceMeshOptions {
   // A closed surface is refused that contradicts more of what the poles say, or whose area is more gaps than
   // that. Of clouds of closed surfaces without sharp edges hardly any contradicts more than .004.
   double most_overruled = 0.05;
-  double most_filled = 0.5;
+  double most_filled = 0.7;
   // Or whose area is more holes than that: gaps that are so many times as large as the balls around them, and
   // as the distance to the third neighbour.
   double most_holes = 0.1;
@@ -44,7 +44,8 @@ struct SurfaceMesh {
 /// - does not depend on the number of threads, nor on the order of samples but by the order of vertices
 ///
 /// What speaks against a surface is in the report (surface_evidence.hpp). Warns where more than .5 % of the
-/// balls are passed by, as with sheets as thin as the spacing, and where holes are closed.
+/// balls are passed by, as with sheets as thin as the spacing, where holes are closed, and where more than
+/// half of the area is gaps.
 ///
 /// Throws InputError where the evidence says that there is no solid (votes on the wrong side, gaps, holes,
 /// balls passed by, beyond the options; nothing is inside), for balls in one plane, and for poles and balls
