@@ -22,7 +22,7 @@ struct TopologyRepairOptions {
   RepairMethod method = RepairMethod::localised;
   // Where more classes than that are lost or extra, only components are mended: of a surface that crosses
   // itself all over, the balls have tunnels that nobody wants to keep, and minutes go by. At least 0.
-  std::int64_t most_defects = 1000;
+  std::int64_t most_defects = 2000;
 };
 
 struct TopologyRepair {
