@@ -23,6 +23,7 @@ TypeLayers growth_layers();
 TypeLayers simplicial_complex_layers();
 TypeLayers medial_axis_layers();
 TypeLayers refinement_layers();
+TypeLayers enclosure_layers();
 TypeLayers sample_assignment_layers();
 TypeLayers surface_report_layers();
 

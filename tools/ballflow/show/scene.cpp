@@ -14,7 +14,7 @@ const std::vector<TypeLayers>& table() {
       point_set_layers(),          triangle_mesh_layers(),      balls_layers(),
       pole_set_layers(),           local_feature_size_layers(), growth_layers(),
       simplicial_complex_layers(), medial_axis_layers(),        refinement_layers(),
-      sample_assignment_layers(),  surface_report_layers()};
+      sample_assignment_layers(),  surface_report_layers(),     enclosure_layers()};
   return types;
 }
 

@@ -202,6 +202,13 @@ std::string describe(const OutputEntry& output) {
        }},
       {"MinkowskiReport", minkowski},
       {"MeshReport", mesh_report},
+      {"Enclosure",
+       [](const Json& s) {
+         const bool proven = s.at("encloses").get<bool>();
+         return (proven ? "" : "NOT enclosed: ") + s.at("words").get<std::string>() +
+                (proven ? ": proven; they stand out by " : "; balls stand out by ") +
+                rounded(s, "protrusion") + " at most";
+       }},
       {"MassProperties",
        [](const Json& s) {
          std::string text = "volume " + rounded(s, "volume");

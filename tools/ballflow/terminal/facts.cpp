@@ -71,6 +71,7 @@ class Facts {
   }
 
   void coverage() {
+    if (const OutputEntry* const enclosure = of_type("Enclosure")) facts_.push_back(describe(*enclosure));
     const OutputEntry* const check = of_type("CoverCheck");
     if (check == nullptr) return;
     const Json s = summary(*check);

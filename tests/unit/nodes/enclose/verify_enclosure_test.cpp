@@ -1,0 +1,270 @@
+#include "enclose/verify_enclosure.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "enclose/covered_triangles.hpp"
+#include "io/file_content.hpp"
+#include "power/power_diagram.hpp"
+#include "sample/generate.hpp"
+#include "test_data.hpp"
+
+namespace ballflow::geometry {
+namespace {
+
+constexpr VerifyEnclosureOptions report{.on_open = OnOpen::report};
+
+Balls balls_of(std::vector<Vec3> centers, std::vector<double> radii) {
+  return {std::move(centers), std::move(radii), {}, {}};
+}
+
+TriangleMesh box(Vec3 lower, Vec3 upper) {
+  std::vector<Vec3> v;
+  for (int k = 0; k < 8; ++k) {
+    v.push_back({(k & 1) != 0 ? upper.x : lower.x, (k & 2) != 0 ? upper.y : lower.y,
+                 (k & 4) != 0 ? upper.z : lower.z});
+  }
+  return {v, std::vector<Triangle>{{0, 2, 3},
+                                   {0, 3, 1},
+                                   {4, 5, 7},
+                                   {4, 7, 6},
+                                   {0, 1, 5},
+                                   {0, 5, 4},
+                                   {2, 6, 7},
+                                   {2, 7, 3},
+                                   {0, 4, 6},
+                                   {0, 6, 2},
+                                   {1, 3, 7},
+                                   {1, 7, 5}}};
+}
+
+double random_unit(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
+Vec3 random_point(std::mt19937_64& random) {
+  const double x = random_unit(random), y = random_unit(random);
+  return {x, y, random_unit(random)};
+}
+
+double distance_from_balls(const Balls& balls, Vec3 p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    least = std::min(least, distance(p, balls.centers[i]) - balls.radii[i]);
+  }
+  return least;
+}
+
+std::string message_of(const TriangleMesh& mesh, const Balls& balls) {
+  try {
+    verify_enclosure(mesh, balls, {});
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(verify_enclosure, of_a_box_in_a_ball_that_touches_its_corners_is_decided_exactly) {
+  // (3, 4, 12) has the length 13; a radius one unit in the last place less leaves the corners out.
+  const TriangleMesh mesh = box({-3, -4, -12}, {3, 4, 12});
+  const Enclosure touching = verify_enclosure(mesh, balls_of({{0, 0, 0}}, {13}), report);
+  EXPECT_TRUE(touching.encloses());
+  EXPECT_EQ(touching.pieces, 12);
+  EXPECT_EQ(touching.protrusion, 10);  // 13 - 3, the distance of the centre
+  const Enclosure less = verify_enclosure(mesh, balls_of({{0, 0, 0}}, {std::nextafter(13.0, 0.0)}), report);
+  EXPECT_FALSE(less.covers());
+  EXPECT_EQ(less.open_triangles.size(), 12u);
+  EXPECT_EQ(less.open_why[0], static_cast<std::uint8_t>(OpenTriangle::point_outside));
+}
+
+TEST(verify_enclosure, cuts_triangles_until_every_part_lies_in_one_ball) {
+  const TriangleMesh mesh = box({0, 0, 0}, {4, 1, 1});
+  std::vector<Vec3> centers;
+  for (int i = 0; i < 8; ++i) centers.push_back({0.25 + 0.5 * i, 0.5, 0.5});
+  const Enclosure enough = verify_enclosure(mesh, balls_of(centers, std::vector<double>(8, 0.76)), report);
+  EXPECT_TRUE(enough.encloses()) << describe(enough);
+  EXPECT_GT(enough.pieces, 100);
+  // In the middle between two centres 0.25 remain beside the diagonal: sqrt(0.0625 + 0.5) = 0.75. Cuts meet
+  // these places, so that the balls are enough as they are.
+  EXPECT_TRUE(verify_enclosure(mesh, balls_of(centers, std::vector<double>(8, 0.75)), report).covers());
+  const Enclosure short_of = verify_enclosure(mesh, balls_of(centers, std::vector<double>(8, 0.7)), report);
+  EXPECT_FALSE(short_of.covers());
+  EXPECT_NEAR(short_of.gap, 0.05, 0.002);
+}
+
+TEST(verify_enclosure, ends_where_balls_meet_on_the_surface_without_overlapping) {
+  // As before, but no cut of the length 3 in halves meets a multiple of 0.5.
+  const TriangleMesh mesh = box({0, 0, 0}, {3, 1, 1});
+  std::vector<Vec3> centers;
+  for (int i = 0; i < 6; ++i) centers.push_back({0.25 + 0.5 * i, 0.5, 0.5});
+  const Enclosure exactly = verify_enclosure(mesh, balls_of(centers, std::vector<double>(6, 0.75)), report);
+  EXPECT_FALSE(exactly.covers());
+  for (const std::uint8_t why : exactly.open_why)
+    EXPECT_EQ(why, static_cast<std::uint8_t>(OpenTriangle::undecided));
+  EXPECT_EQ(exactly.open_area, 0);
+  EXPECT_NE(message_of(mesh, balls_of(centers, std::vector<double>(6, 0.75))).find("without overlapping"),
+            std::string::npos);
+  EXPECT_TRUE(
+      verify_enclosure(mesh, balls_of(centers, std::vector<double>(6, 0.75 * (1 + 1e-9))), {}).encloses());
+}
+
+TEST(verify_enclosure, finds_the_void_in_a_shell_of_balls) {
+  // Balls on a sphere that cover every triangle of it leave most of the inside out.
+  std::vector<Vec3> centers;
+  const int n = 400;
+  for (int i = 0; i < n; ++i) {
+    const double z = 1 - (2.0 * i + 1) / n, t = 2.399963229728653 * i, r = std::sqrt(1 - z * z);
+    centers.push_back({0.1 * r * std::cos(t), 0.1 * r * std::sin(t), 0.1 * z});
+  }
+  TriangleMesh mesh = generate(parse_shape("sphere?n=2000"));
+  std::vector<Vec3> vertices;
+  for (const Vec3 v : mesh.vertices) vertices.push_back((0.1 / length(v)) * v);
+  mesh.vertices = vertices;
+  const Balls shell = balls_of(centers, std::vector<double>(n, 0.018));
+  const Enclosure found = verify_enclosure(mesh, shell, report);
+  EXPECT_TRUE(found.covers()) << describe(found);
+  EXPECT_FALSE(found.encloses());
+  ASSERT_EQ(found.void_points.size(), 1u);
+  EXPECT_EQ(found.void_places[0], static_cast<std::uint8_t>(VoidPlace::inside));
+  EXPECT_GT(distance_from_balls(shell, found.void_points[0]), 0.05);
+  EXPECT_NE(message_of(mesh, shell).find("1 void inside"), std::string::npos) << message_of(mesh, shell);
+
+  // The same void does no harm to the shell's own wall, a solid with a cavity there.
+  TriangleMesh wall = mesh;
+  std::vector<Triangle> triangles(mesh.triangles.begin(), mesh.triangles.end());
+  const auto offset = static_cast<std::int32_t>(vertices.size());
+  for (const Vec3 v : mesh.vertices) vertices.push_back(0.93 * v);
+  for (const Triangle t : mesh.triangles) triangles.push_back({t[0] + offset, t[2] + offset, t[1] + offset});
+  wall.vertices = vertices;
+  wall.triangles = triangles;
+  const Enclosure of_wall = verify_enclosure(wall, shell, report);
+  EXPECT_TRUE(of_wall.encloses()) << describe(of_wall);
+  EXPECT_EQ(of_wall.void_places[0], static_cast<std::uint8_t>(VoidPlace::outside));
+
+  // What an open mesh holds is not known.
+  TriangleMesh open = mesh;
+  open.triangles = std::vector<Triangle>(mesh.triangles.begin(), mesh.triangles.end() - 1);
+  const Enclosure of_open = verify_enclosure(open, shell, report);
+  EXPECT_FALSE(of_open.encloses());
+  EXPECT_EQ(of_open.void_places[0], static_cast<std::uint8_t>(VoidPlace::unknown));
+}
+
+TEST(verify_enclosure, says_of_random_soups_and_balls_what_samples_say) {
+  std::mt19937_64 random(1);
+  int enclosed = 0, open = 0;
+  for (int round = 0; round < 60; ++round) {
+    std::vector<Vec3> vertices, centers;
+    std::vector<Triangle> triangles;
+    for (std::int32_t k = 0; k < 12; ++k) {
+      const Vec3 at = random_point(random);
+      for (int i = 0; i < 3; ++i) vertices.push_back(at + 0.3 * random_point(random));
+      triangles.push_back({3 * k, 3 * k + 1, 3 * k + 2});
+    }
+    std::vector<double> radii;
+    for (int i = 0; i < 60; ++i) {
+      centers.push_back(1.3 * random_point(random));
+      radii.push_back((0.22 + 0.004 * round) * (0.7 + 0.6 * random_unit(random)));
+    }
+    const TriangleMesh mesh{vertices, triangles};
+    const Balls balls = balls_of(centers, radii);
+    const Enclosure found = verify_enclosure(mesh, balls, report);
+    EXPECT_EQ(broken_invariant(found), "");
+    std::size_t next = 0;
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      const bool listed =
+          next < found.open_triangles.size() && found.open_triangles[next] == static_cast<std::int32_t>(t);
+      double farthest = -1;
+      for (int i = 0; i < 400; ++i) {
+        double u = random_unit(random), v = random_unit(random);
+        if (u + v > 1) u = 1 - u, v = 1 - v;
+        const Vec3 p = vertices[3 * t];
+        farthest = std::max(farthest, distance_from_balls(balls, p + u * (vertices[3 * t + 1] - p) +
+                                                                     v * (vertices[3 * t + 2] - p)));
+      }
+      if (listed) {
+        EXPECT_EQ(found.open_why[next], static_cast<std::uint8_t>(OpenTriangle::point_outside));
+        EXPECT_GT(distance_from_balls(balls, found.open_points[next]), -1e-12) << "round " << round;
+        EXPECT_LE(farthest, found.gap + 0.01) << "round " << round;
+        ++next;
+        ++open;
+      } else {
+        EXPECT_LE(farthest, 1e-12) << "round " << round << ", triangle " << t;
+        ++enclosed;
+      }
+    }
+  }
+  EXPECT_GT(enclosed, 100);
+  EXPECT_GT(open, 50);
+}
+
+TEST(verify_enclosure, is_the_same_with_a_diagram_doubled_triangles_and_any_orientation) {
+  TriangleMesh mesh = box({0, 0, 0}, {1, 1, 1});
+  const Balls balls = balls_of({{0.5, 0.5, 0.25}, {0.5, 0.5, 0.75}}, {0.8, 0.8});
+  const PowerDiagram diagram = power_diagram(balls, {}, no_monitor());
+  EXPECT_TRUE(verify_enclosure(mesh, balls, {}, no_monitor(), &diagram).encloses());
+  std::vector<Triangle> twice(mesh.triangles.begin(), mesh.triangles.end());
+  for (const Triangle t : mesh.triangles) twice.push_back({t[1], t[0], t[2]});
+  mesh.triangles = twice;
+  EXPECT_TRUE(verify_enclosure(mesh, balls, {}).encloses());
+  EXPECT_THROW(verify_enclosure(mesh, balls_of({{0.5, 0.5, 0.25}}, {0.8}), {}, no_monitor(), &diagram),
+               InputError);
+}
+
+TEST(verify_enclosure, names_the_first_place_and_refuses_what_it_cannot_use) {
+  const TriangleMesh mesh = box({0, 0, 0}, {1, 1, 1});
+  EXPECT_NE(
+      message_of(mesh, balls_of({{0, 0, 0}}, {0.5})).find("triangle 0: its point (0, 1, 0) is in no ball"),
+      std::string::npos)
+      << message_of(mesh, balls_of({{0, 0, 0}}, {0.5}));
+  EXPECT_NE(message_of(mesh, {}).find("12 of 12 triangles are not covered"), std::string::npos);
+  EXPECT_NE(message_of({}, {}).find("no triangles"), std::string::npos);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(verify_enclosure(mesh, balls_of({{nan, 0, 0}}, {1}), report), InputError);
+  EXPECT_EQ(verify_enclosure(mesh, {}, report).open_area, 6);
+}
+
+/// Triangles and spheres that other tools ship, beside what 100 000 samples said about them.
+TEST(verify_enclosure, says_of_the_spheres_of_other_tools_what_samples_say) {
+  const std::string measured = test::data_file("spheres/measured.txt");
+  if (measured.empty()) GTEST_SKIP() << "no spheres of other tools here";
+  std::ifstream lines(measured);
+  int files = 0;
+  for (std::string line; std::getline(lines, line);) {
+    char name[64];
+    double outside = 0, gap = 0;
+    const std::size_t share = line.find("surf-unc"), far = line.find("maxgap");
+    if (share == std::string::npos || std::sscanf(line.c_str(), "%63s", name) != 1 ||
+        std::sscanf(line.c_str() + share, "surf-unc %lf%%", &outside) != 1 ||
+        std::sscanf(line.c_str() + far, "maxgap %lfmm", &gap) != 1)
+      continue;
+    const std::string file = test::data_file("spheres/" + std::string(name) + ".gz");
+    ASSERT_FALSE(file.empty()) << name;
+    std::istringstream in(std::string(read_file_content(file, 1 << 24).view()));
+    std::size_t triangle_count = 0, ball_count = 0;
+    in >> triangle_count >> ball_count;
+    std::vector<Vec3> vertices(3 * triangle_count), centers(ball_count);
+    std::vector<Triangle> triangles;
+    std::vector<double> radii(ball_count);
+    for (Vec3& v : vertices) in >> v.x >> v.y >> v.z;
+    for (std::size_t i = 0; i < ball_count; ++i)
+      in >> centers[i].x >> centers[i].y >> centers[i].z >> radii[i];
+    for (std::size_t t = 0; t < triangle_count; ++t) {
+      const auto k = static_cast<std::int32_t>(3 * t);
+      triangles.push_back({k, k + 1, k + 2});
+    }
+    const Enclosure found = verify_enclosure({vertices, triangles}, balls_of(centers, radii), report);
+    EXPECT_FALSE(found.encloses()) << name;
+    EXPECT_NEAR(100 * found.open_area / found.area, outside, 1.0) << name;
+    EXPECT_NEAR(1000 * found.gap, gap, 0.03 * gap + 0.3) << name;
+    ++files;
+  }
+  EXPECT_GT(files, 30);
+}
+
+}  // namespace
+}  // namespace ballflow::geometry
