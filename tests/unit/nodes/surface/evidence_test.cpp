@@ -150,6 +150,24 @@ TEST(surface_mesh, holes_of_a_ring_that_is_cut_are_closed_and_told_or_left) {
   EXPECT_EQ(surface_of(whole, {.open = true}).mesh.triangles, surface_of(whole).mesh.triangles);
 }
 
+TEST(surface_mesh, strays_are_passed_by_and_told) {
+  std::vector<Vec3> points;
+  for (const Vec3& p : test::sphere(4).mesh().vertices) points.push_back(p);
+  const std::size_t n = points.size();
+  points.insert(points.end(), {{50, 0, 0}, {0, -50, 10}, {5, 5, 50}});
+  for (const double shrink : {0.0, 0.3}) {
+    const Cloud cloud = cloud_of({points, {}}, shrink);
+    Warnings warnings;
+    const SurfaceMesh surface = surface_mesh(cloud.diagram, cloud.poles, cloud.points, {}, warnings);
+    expect_closed_manifold(surface.mesh);
+    EXPECT_EQ(surface.report.genus, 0);
+    EXPECT_EQ(surface.report.left_out, 3);
+    EXPECT_GT(surface.report.farthest, 45);
+    EXPECT_LE(surface.mesh.vertices.size(), n);
+    EXPECT_EQ(warnings.tell("passes by 3 of"), shrink > 0) << warnings.all;
+  }
+}
+
 TEST(surface_mesh, a_sheet_that_bounds_nothing_is_refused_as_open_too) {
   std::mt19937 random(2);
   std::vector<Vec3> points;
