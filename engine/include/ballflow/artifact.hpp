@@ -41,6 +41,10 @@ struct NamedArray {
   std::uint32_t dtype = 0;  // bf_dtype
   std::vector<std::uint64_t> shape;
   const void* data = nullptr;
+  // Keeps `data` alive and nothing else; null where only all of the artifact keeps it. A node that hands an
+  // array on as it got it then does not hold on to the whole of its input, and a loop not to all states
+  // before.
+  std::shared_ptr<const void> keeper = {};
 
   std::uint64_t elements() const;
   std::uint64_t bytes() const;

@@ -15,14 +15,18 @@
 namespace ballflow {
 namespace {
 
-/// Releases the arrays that a node handed over.
-struct HandedOver {
-  std::vector<bf_array> arrays;
+/// Releases an array that a node handed over.
+class HandedOver {
+ public:
+  explicit HandedOver(const bf_array& array) : array_(array) {}
   ~HandedOver() {
-    for (const bf_array& array : arrays) {
-      if (array.release != nullptr) array.release(array.owner);
-    }
+    if (array_.release != nullptr) array_.release(array_.owner);
   }
+  HandedOver(const HandedOver&) = delete;
+  HandedOver& operator=(const HandedOver&) = delete;
+
+ private:
+  bf_array array_;
 };
 
 class Host {
@@ -146,31 +150,38 @@ class Host {
 
   int output(bf_bytes port_name, const bf_array* arrays, std::uint64_t count, bf_bytes summary) {
     const std::string port = text(port_name);
-    auto owner = std::make_shared<HandedOver>();
     if (count > 0 && arrays->struct_size < BF_ARRAY_MIN_SIZE) {
       fail("output \"" + port + "\" was handed over in structs that are too small",
            "this is a bug of the node; please report it");
       return 1;
     }
-    owner->arrays.reserve(count);
+    std::vector<bf_array> handed;
+    std::vector<std::shared_ptr<const void>> keepers;
+    handed.reserve(count);
+    keepers.reserve(count);
     for (std::uint64_t i = 0; i < count; ++i) {
       bf_array array{};
       std::memcpy(&array, reinterpret_cast<const char*>(arrays) + i * arrays->struct_size,
                   std::min<std::size_t>(arrays->struct_size, sizeof array));
-      owner->arrays.push_back(array);
+      handed.push_back(array);
+      keepers.push_back(std::make_shared<HandedOver>(array));
     }
     try {
       const PortDecl* decl = request_.node->kind.output(port);
       if (decl == nullptr)
         throw Error(ExitCode::plugin, "the node gave an output \"" + port + "\" that it does not declare");
       std::vector<NamedArray> named;
-      for (const bf_array& array : owner->arrays) {
+      for (std::size_t i = 0; i < handed.size(); ++i) {
+        const bf_array& array = handed[i];
         if (array.rank > BALLFLOW_MAX_RANK)
           throw Error(ExitCode::plugin, "an array has more than 4 dimensions");
-        named.push_back({text(array.name), array.dtype, {array.shape, array.shape + array.rank}, array.data});
+        named.push_back(
+            {text(array.name), array.dtype, {array.shape, array.shape + array.rank}, array.data, keepers[i]});
+        keep_little(named.back());
       }
+      keepers.clear();
       const ArtifactPtr artifact =
-          Artifact::seal(decl->type, decl->type_version, std::move(named), text(summary), std::move(owner));
+          Artifact::seal(decl->type, decl->type_version, std::move(named), text(summary), nullptr);
       const TypeDeclaration* type = request_.registry->type(decl->type);
       const std::string broken = type == nullptr ? std::string() : check_artifact(*type, *artifact);
       if (!broken.empty()) {
@@ -189,6 +200,25 @@ class Host {
            "this is a bug of the node; please report it");
     }
     return 1;
+  }
+
+  /// What a node gives back for an array of an input, as it got it, keeps all of that input. The keeper of
+  /// that array alone will do, and of an array without elements none.
+  void keep_little(NamedArray& array) const {
+    static constexpr double nothing = 0;
+    if (array.bytes() == 0) {
+      array.data = &nothing;
+      array.keeper = nullptr;
+      return;
+    }
+    for (const auto& [slot, input] : request_.inputs) {
+      if (input == nullptr) continue;
+      for (const NamedArray& other : input->arrays()) {
+        if (other.data != array.data || other.bytes() < array.bytes() || other.keeper == nullptr) continue;
+        array.keeper = other.keeper;
+        return;
+      }
+    }
   }
 
   const ExecutionRequest& request_;

@@ -64,6 +64,31 @@ TEST_F(BoundaryTest, a_node_never_sees_an_artifact_that_is_not_as_declared) {
   EXPECT_EQ(toy::counters.round, 0);
 }
 
+TEST_F(BoundaryTest, an_array_that_a_node_hands_on_as_it_got_it_keeps_no_other_artifact) {
+  // Else every state of a loop would keep all those before.
+  Dag dag;
+  const auto source = node(dag, "source", "Source", {}, {{"value", 2.5}, {"count", 4}});
+  const auto hand = node(dag, "hand", "Slow", {}, {{"seconds", 0}});
+  ExecutionOutcome outcome = in_process_executor()->execute(request_for(dag.nodes[source], registry));
+  ASSERT_EQ(outcome.status, ExecutionOutcome::Status::ok) << outcome.cause;
+  ArtifactPtr state = outcome.outputs.at("numbers");
+  const void* const data = state->find("values")->data;
+  for (int i = 0; i < 3; ++i) {
+    const std::weak_ptr<const Artifact> before = state;
+    ExecutionRequest request = request_for(dag.nodes[hand], registry);
+    request.inputs["numbers"] = std::move(state);
+    outcome = in_process_executor()->execute(request);
+    ASSERT_EQ(outcome.status, ExecutionOutcome::Status::ok) << outcome.cause;
+    state = outcome.outputs.at("numbers");
+    request.inputs.clear();
+    ASSERT_EQ(state->find("values")->data, data) << "nothing was copied";
+    EXPECT_TRUE(before.expired()) << i;
+  }
+  outcome.outputs.clear();
+  const auto* const values = static_cast<const double*>(state->find("values")->data);
+  EXPECT_EQ(std::vector<double>(values, values + 4), std::vector<double>(4, 2.5)) << "and it is still there";
+}
+
 TEST_F(BoundaryTest, what_a_host_throws_goes_around_the_node) {
   Dag dag;
   const auto babble = node(dag, "babble", "Babble");
