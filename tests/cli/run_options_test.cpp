@@ -189,8 +189,10 @@ TEST_F(RunOptionsTest, the_determinism_check_passes_on_the_whole_pipeline) {
 }
 
 TEST_F(RunOptionsTest, digests_are_the_same_on_a_processor_without_fma_and_avx2) {
-  std::vector<std::vector<std::string>> runs = {{test::source_file("graphs/medial_axis.json"), "--set",
-                                                 "strategy=hybrid", "--set", "sampling=vertices"}};
+  std::vector<std::vector<std::string>> runs = {
+      {test::source_file("graphs/medial_axis.json"), "--set", "strategy=hybrid", "--set",
+       "sampling=vertices"},
+      {test::source_file("graphs/reconstruct.json"), "--set", "robustness=denoise"}};
   for (const auto& entry : fs::directory_iterator(test::source_file("graphs"))) {
     if (entry.path().extension() == ".json") runs.push_back({entry.path().string()});
   }
