@@ -9,4 +9,7 @@ inline constexpr double pi = 3.141592653589793;
 /// than 1e-15: unlike that of the C library it does not differ between machines.
 double arctangent(double y, double x);
 
+/// The cosine of an angle in [0, pi], as exact and in the same arithmetic.
+double cosine(double angle);
+
 }  // namespace ballflow::geometry

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/arctangent.hpp"
 #include "search/surface_tree.hpp"
 
 namespace ballflow::geometry {
@@ -17,7 +18,7 @@ class Ruler {
       : mesh_(mesh),
         tree_(mesh, monitor),
         // Within 1e-12 of the angle: a test by formulas gives the angle itself.
-        least_cosine_(std::cos(options.largest_angle * 0.017453292519943295) - 1e-12),
+        least_cosine_(cosine(options.largest_angle * 0.017453292519943295) - 1e-12),
         whole_(2 * bounding_box(mesh.vertices.span()).longest_edge()) {}
 
   /// What lies opposite to a triangle on the side that `direction` says, 1 where it faces, -1 behind it, and

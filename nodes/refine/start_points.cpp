@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/arctangent.hpp"
 #include "base/disjoint_sets.hpp"
 #include "base/lists.hpp"
 
@@ -51,7 +52,7 @@ std::vector<SharpEdge> sharp_edges(const TriangleMesh& mesh, double least_turn) 
       Vec3 b = area_vector(mesh, at(sides[first + 1].triangle));
       if (sides[first].forwards == sides[first + 1].forwards) b = -b;  // they do not face one way
       const double norms = length(a) * length(b);
-      if (!(norms > 0) || dot(a, b) >= std::cos(least_turn) * norms) continue;
+      if (!(norms > 0) || dot(a, b) >= cosine(least_turn) * norms) continue;
     }
     sharp.push_back({sides[first].edge, sides[first].triangle});
   }
@@ -64,7 +65,7 @@ class SharpLines {
   SharpLines(const TriangleMesh& mesh, const StartPointsOptions& options, std::vector<SurfacePoint>& points)
       : mesh_(mesh), edges_(sharp_edges(mesh, options.sharp * std::numbers::pi / 180)), points_(points) {
     spacing_ = options.spacing * bounding_box(mesh.vertices.span()).longest_edge();
-    turn_ = std::cos(options.sharp * std::numbers::pi / 180);
+    turn_ = cosine(options.sharp * std::numbers::pi / 180);
     at_vertex_ = lists_of<std::int32_t>(mesh.vertices.size(), [&](auto&& put) {
       for (std::size_t e = 0; e < edges_.size(); ++e) {
         for (const std::int32_t v : edges_[e].ends) put(at(v), static_cast<std::int32_t>(e));
