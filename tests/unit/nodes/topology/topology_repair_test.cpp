@@ -1,6 +1,7 @@
 #include "topology/topology_repair.hpp"
 
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
@@ -236,7 +237,12 @@ TEST(without_superfluous, leaves_what_the_union_of_all_needs) {
     const UnionOfBalls whole(instance.balls, no_monitor());
     const Ids kept(instance.kept.begin(), instance.kept.begin() + 20);
     const Ids others = all_but(160, {kept.begin(), kept.end()});
-    const Ids needed = without_superfluous(instance.balls, kept, others, no_monitor());
+    Ids needed, alone;
+    tbb::task_arena(4).execute(
+        [&] { needed = without_superfluous(instance.balls, kept, others, no_monitor()); });
+    tbb::task_arena(1).execute(
+        [&] { alone = without_superfluous(instance.balls, kept, others, no_monitor()); });
+    EXPECT_EQ(needed, alone) << "round " << round;
     const Ids after = merged(kept, needed);
     EXPECT_TRUE(whole.inclusion_of(after).isomorphism()) << "round " << round;
     for (const std::int32_t ball : needed) {
