@@ -30,14 +30,14 @@ double thickness(const TriangleMesh& surface, const Balls& balls);
 
 /// What is covered for a solid of that thickness: from 1.5 on samples, from 1 on facets, below edges.
 ///
-/// From 14 models, balls counted after TopologyRepair (docs/sampling.md has the figures): ten are above 1.7,
-/// and covering facets takes 1 to 20 % more balls than samples; the two between 1 and 1.3 take 6 and 12 %
-/// fewer, and the two below 1 take 14 and 25 % fewer with edges.
+/// From 14 models (docs/sampling.md has the figures): ten are above 1.7, where facets take 1 to 20 % more
+/// balls than samples and holes are rare. Below 1.3 samples leave up to 12 % of the surface outside, what is
+/// said here at most 5 %, for 2 to 26 % more balls.
 Demand demand_for(double thickness);
 
 /// Where walls are thin a ball reaches few samples, and balls that cover all samples leave holes between
-/// them. Centres of triangles cost nothing to have and close most holes before a repair has to; thick shapes
-/// are covered by fewer balls without.
+/// them. Centres of triangles cost nothing to have and close most holes; thick shapes are covered by fewer
+/// balls without.
 ///
 /// - `surface` is a triangulation of the samples: its vertices are they. Without triangles there is nothing
 ///   between samples, and every demand is that for samples.

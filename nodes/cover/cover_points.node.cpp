@@ -26,12 +26,11 @@ struct CoverPointsNode {
     d.id("CoverPoints", 1).summary("Say what the balls have to cover: the samples, or more of the surface.");
     d.doc(
         "What is covered need not be what was sampled. Where walls are thin a ball reaches few samples, and "
-        "balls that cover all samples leave holes between them, which TopologyRepair closes by returning "
-        "many "
-        "balls. The centres of the surface's triangles, and of its edges, are points that close them from "
-        "the "
-        "start; thick shapes need fewer balls without. Whole triangles (patches) are a surface and not "
-        "points: "
+        "balls that cover all samples leave holes between them: some a repair of the topology closes, but a "
+        "tenth of the surface may stay outside. The centres of the surface's triangles, and of its edges, "
+        "are "
+        "points that close them from the start, for up to a quarter more balls; thick shapes need more balls "
+        "for nothing. Whole triangles (patches) are a surface and not points: "
         "a union that covers them contains the triangulation, which takes several times as many balls.");
     d.avoid_when("covers are to be compared with the thesis or with other programs: they cover the samples.");
     d.cites("kornberger2010", "3.6.1, the samples");
