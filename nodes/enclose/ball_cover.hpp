@@ -71,6 +71,8 @@ class BallCover {
 
   /// Patches in ball i and no other.
   void only_in(std::size_t i, std::vector<std::int32_t>& result) const;
+  /// The place of the ball that a patch is in, of one that is in no other.
+  std::size_t place_of(std::size_t patch) const { return patch_xor_[patch] - 1; }
   /// The greatest distance of a corner of the patch from a point.
   float farthest(std::size_t patch, const FloatBall& from) const;
   /// Begins a fit of the ball in place i to the patches named: points to avoid are those in no other ball.

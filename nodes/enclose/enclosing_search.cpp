@@ -63,6 +63,9 @@ void EnclosingSearch::changed(const FloatBall& where) {
 }
 
 void EnclosingSearch::take(const std::vector<FloatBall>& balls) {
+  for (std::size_t i = 0; i < cover_.places(); ++i) {
+    if (cover_.place(i).used) drop(i);
+  }
   for (std::size_t i = 0; i < balls.size(); ++i) change(i, balls[i]);
   repair();
   cover_.forget();
@@ -381,8 +384,8 @@ bool EnclosingSearch::swap() {
     if (!cover_.place(i).used || i == removed) continue;
     if (halved == none || splits_[i].gain > splits_[halved].gain) halved = i;
   }
-  // Neither is exact.
-  if (static_cast<double>(removals_[removed].loss) > 1.2 * static_cast<double>(splits_[halved].gain)) return false;
+  constexpr double hope = 3;  // neither is exact, and steps around both gain, too
+  if (static_cast<double>(removals_[removed].loss) > hope * static_cast<double>(splits_[halved].gain)) return false;
   const std::vector<Split> splits = splits_;
   const std::vector<Removal> removals = removals_;
   const std::int64_t waste = cover_.waste();

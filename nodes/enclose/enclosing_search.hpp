@@ -15,7 +15,8 @@ class EnclosingSearch {
  public:
   EnclosingSearch(BallCover& cover, Random& random, Monitor& monitor) : cover_(cover), random_(random), monitor_(monitor) {}
 
-  /// Takes the balls, as many as there are places at most, and repairs what they leave uncovered.
+  /// Takes these balls in place of those there are, as many as there are places at most, and repairs what they leave
+  /// uncovered.
   void take(const std::vector<FloatBall>& balls);
   std::vector<FloatBall> balls() const;
 

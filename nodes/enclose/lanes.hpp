@@ -1,6 +1,10 @@
 // Four floats at a time, with the same bits on every machine: what sums and comparisons of balls run on.
 #pragma once
 
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
+
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -28,6 +32,9 @@ inline float greatest(Lanes a) {
   return p > q ? p : q;
 }
 inline Lanes square_root(Lanes a) {
+#ifdef __SSE__
+  return _mm_sqrt_ps(a);
+#endif
   return Lanes{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
 }
 

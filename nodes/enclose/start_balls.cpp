@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace ballflow::geometry {
 namespace {
@@ -71,28 +72,36 @@ class GreedyCover {
     }
     std::vector<std::uint64_t> left(words_, ~std::uint64_t{0});
     if (count_ % 64 != 0) left.back() = (std::uint64_t{1} << (count_ % 64)) - 1;
+    // What a ball gains never grows: who was best is looked at again, until one stays best.
+    std::vector<std::pair<std::size_t, std::size_t>> queue;  // gain, and the ball counted from the last one
+    for (std::size_t b = 0; b < balls_; ++b) queue.emplace_back(gain(b, left), balls_ - b);
+    std::make_heap(queue.begin(), queue.end());
     std::size_t rest = count_;
     std::vector<std::size_t> chosen;
     while (rest > 0 && chosen.size() <= most) {
-      std::size_t best = 0, gain = 0;
-      for (std::size_t b = 0; b < balls_; ++b) {
-        std::size_t covered = 0;
-        for (std::size_t w = 0; w < words_; ++w)
-          covered += static_cast<std::size_t>(std::popcount(bits_[b * words_ + w] & left[w]));
-        if (covered > gain) {
-          gain = covered;
-          best = b;
-        }
+      std::pop_heap(queue.begin(), queue.end());
+      auto& [found, place] = queue.back();
+      const std::size_t b = balls_ - place, now = gain(b, left);
+      if (now == found) {
+        if (now == 0) return std::vector<std::size_t>(most + 1);  // no ball reaches the rest
+        chosen.push_back(b);
+        rest -= now;
+        for (std::size_t w = 0; w < words_; ++w) left[w] &= ~bits_[b * words_ + w];
       }
-      if (gain == 0) return std::vector<std::size_t>(most + 1);  // no ball reaches the rest
-      chosen.push_back(best);
-      rest -= gain;
-      for (std::size_t w = 0; w < words_; ++w) left[w] &= ~bits_[best * words_ + w];
+      found = now == found ? 0 : now;
+      std::push_heap(queue.begin(), queue.end());
     }
     return chosen;
   }
 
  private:
+  std::size_t gain(std::size_t b, const std::vector<std::uint64_t>& left) const {
+    std::size_t covered = 0;
+    for (std::size_t w = 0; w < words_; ++w)
+      covered += static_cast<std::size_t>(std::popcount(bits_[b * words_ + w] & left[w]));
+    return covered;
+  }
+
   std::size_t balls_, count_, words_;
   std::vector<float> depth_;
   std::vector<std::uint64_t> bits_;

@@ -37,6 +37,32 @@ std::vector<std::int32_t> numbered(const std::vector<Vec3>& points, std::vector<
   return number;
 }
 
+/// Numbers and orders patches of which the corners are known.
+SurfacePatches ordered(const std::vector<Vec3>& points) {
+  SurfacePatches result;
+  const std::vector<std::int32_t> number = numbered(points, result.vertices);
+  result.corners.reserve(points.size() / 3);
+  for (std::size_t p = 0; p < points.size(); p += 3) {
+    std::array<std::int32_t, 3> corners{number[p], number[p + 1], number[p + 2]};
+    std::sort(corners.begin(), corners.end());
+    result.corners.push_back(corners);
+  }
+  std::sort(result.corners.begin(), result.corners.end());
+  result.corners.erase(std::unique(result.corners.begin(), result.corners.end()), result.corners.end());
+  const SpaceOrder place(bounding_box(result.vertices));
+  const auto key = [&](const std::array<std::int32_t, 3>& c) {
+    Vec3 sum;
+    for (const std::int32_t v : c) sum = sum + result.vertices[static_cast<std::size_t>(v)];
+    return place(1.0 / 3 * sum);
+  };
+  std::vector<std::pair<std::uint64_t, std::array<std::int32_t, 3>>> order;
+  order.reserve(result.corners.size());
+  for (const auto& corners : result.corners) order.emplace_back(key(corners), corners);
+  std::sort(order.begin(), order.end());
+  for (std::size_t i = 0; i < order.size(); ++i) result.corners[i] = order[i].second;
+  return result;
+}
+
 }  // namespace
 
 SurfacePatches surface_patches(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
@@ -64,28 +90,26 @@ SurfacePatches surface_patches(std::span<const Vec3> vertices, std::span<const T
       waiting.push_back(second);
     }
   }
-  SurfacePatches result;
-  const std::vector<std::int32_t> number = numbered(points, result.vertices);
-  result.corners.reserve(points.size() / 3);
-  for (std::size_t p = 0; p < points.size(); p += 3) {
-    std::array<std::int32_t, 3> corners{number[p], number[p + 1], number[p + 2]};
-    std::sort(corners.begin(), corners.end());
-    result.corners.push_back(corners);
+  return ordered(points);
+}
+
+SurfacePatches refined(const SurfacePatches& patches, const std::vector<std::uint8_t>& cut, double shortest) {
+  std::vector<Vec3> points;
+  for (std::size_t p = 0; p < patches.corners.size(); ++p) {
+    Corner3 part;
+    for (std::size_t k = 0; k < 3; ++k) part[k] = patches.vertices[static_cast<std::size_t>(patches.corners[p][k])];
+    const std::size_t k = longest_side(part);
+    const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+    if (cut[p] == 0 || distance(part[i], part[j]) <= shortest) {
+      points.insert(points.end(), part.begin(), part.end());
+      continue;
+    }
+    Corner3 first = part, second = part;
+    first[i] = second[j] = 0.5 * (part[i] + part[j]);
+    points.insert(points.end(), first.begin(), first.end());
+    points.insert(points.end(), second.begin(), second.end());
   }
-  std::sort(result.corners.begin(), result.corners.end());
-  result.corners.erase(std::unique(result.corners.begin(), result.corners.end()), result.corners.end());
-  const SpaceOrder place(bounding_box(result.vertices));
-  const auto key = [&](const std::array<std::int32_t, 3>& c) {
-    Vec3 sum;
-    for (const std::int32_t v : c) sum = sum + result.vertices[static_cast<std::size_t>(v)];
-    return place(1.0 / 3 * sum);
-  };
-  std::vector<std::pair<std::uint64_t, std::array<std::int32_t, 3>>> order;
-  order.reserve(result.corners.size());
-  for (const auto& corners : result.corners) order.emplace_back(key(corners), corners);
-  std::sort(order.begin(), order.end());
-  for (std::size_t i = 0; i < order.size(); ++i) result.corners[i] = order[i].second;
-  return result;
+  return ordered(points);
 }
 
 double surface_area(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {

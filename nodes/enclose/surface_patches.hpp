@@ -24,6 +24,10 @@ struct SurfacePatches {
 /// - Precondition: the mesh has no broken invariant, longest > 0.
 SurfacePatches surface_patches(std::span<const Vec3> vertices, std::span<const Triangle> triangles, double longest);
 
+/// Cuts only the patches that `cut` names (m flags), and only once each, at the longest edge; edges that are not longer than
+/// `shortest` stay.
+SurfacePatches refined(const SurfacePatches& patches, const std::vector<std::uint8_t>& cut, double shortest);
+
 /// The sum of the areas of the triangles.
 double surface_area(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
 
