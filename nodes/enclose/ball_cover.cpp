@@ -22,7 +22,8 @@ void PointBlocks::build(const std::vector<FloatPoints>& corners) {
     for (std::size_t i = b * block; i < std::min(size_, (b + 1) * block); ++i) {
       for (const FloatPoints& points : corners_) {
         low = {std::min(low[0], points.x[i]), std::min(low[1], points.y[i]), std::min(low[2], points.z[i])};
-        high = {std::max(high[0], points.x[i]), std::max(high[1], points.y[i]), std::max(high[2], points.z[i])};
+        high = {std::max(high[0], points.x[i]), std::max(high[1], points.y[i]),
+                std::max(high[2], points.z[i])};
       }
     }
     if (b * block >= size_) low = high = {far, far, far};
@@ -31,7 +32,8 @@ void PointBlocks::build(const std::vector<FloatPoints>& corners) {
   }
 }
 
-BallCover::BallCover(const SurfacePatches& patches, std::span<const Vec3> points_inside, const OutsidePoints& outside)
+BallCover::BallCover(const SurfacePatches& patches, std::span<const Vec3> points_inside,
+                     const OutsidePoints& outside)
     : spacing_(static_cast<float>(outside.spacing)) {
   for (const Vec3 p : patches.vertices) vertices_.push_back(p);
   corner_ids_ = patches.corners;

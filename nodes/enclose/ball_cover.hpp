@@ -1,4 +1,5 @@
-// Balls that cover patches of a surface, and how much of the space outside they waste: kept up to date while balls change.
+// Balls that cover patches of a surface, and how much of the space outside they waste: kept up to date while
+// balls change.
 #pragma once
 
 #include <array>
@@ -17,7 +18,8 @@ namespace ballflow::geometry {
 class PointBlocks {
  public:
   static constexpr std::size_t block = 32;
-  /// Points that follow each other are close; `corners` of them belong together and are found when all are in.
+  /// Points that follow each other are close; `corners` of them belong together and are found when all are
+  /// in.
   void build(const std::vector<FloatPoints>& corners);
   std::size_t size() const { return size_; }
   const FloatPoints& corner(std::size_t k) const { return corners_[k]; }
@@ -76,7 +78,8 @@ class BallCover {
   /// The greatest distance of a corner of the patch from a point.
   float farthest(std::size_t patch, const FloatBall& from) const;
   /// Begins a fit of the ball in place i to the patches named: points to avoid are those in no other ball.
-  void prepare(std::size_t i, const FloatBall& around, std::span<const std::int32_t> patches, BallFit& fit) const;
+  void prepare(std::size_t i, const FloatBall& around, std::span<const std::int32_t> patches,
+               BallFit& fit) const;
 
   /// Changes from here on can be undone.
   std::size_t mark() const { return journal_.size(); }
@@ -117,18 +120,14 @@ void PointBlocks::in_ball(const FloatBall& ball, Visit visit) const {
     const Lanes dx = greater_of(zero, greater_of(load(&lower_.x[b]) - cx, cx - load(&upper_.x[b])));
     const Lanes dy = greater_of(zero, greater_of(load(&lower_.y[b]) - cy, cy - load(&upper_.y[b])));
     const Lanes dz = greater_of(zero, greater_of(load(&lower_.z[b]) - cz, cz - load(&upper_.z[b])));
-    const auto near = dx * dx + dy * dy + dz * dz <= reach;
-    for (std::size_t l = 0; l < lanes; ++l) {
-      if (near[l] == 0) continue;
-      const std::size_t first = (b + l) * block;
+    for (unsigned near = bits(dx * dx + dy * dy + dz * dz <= reach); near != 0; near &= near - 1) {
+      const std::size_t first = (b + static_cast<std::size_t>(std::countr_zero(near))) * block;
       for (std::size_t i = first; i < first + block; i += lanes) {
         Lanes most = corners_[0].squared_from(i, cx, cy, cz);
         for (std::size_t k = 1; k < corners_.size(); ++k)
           most = greater_of(most, corners_[k].squared_from(i, cx, cy, cz));
-        const auto in = most <= limit;
-        for (std::size_t m = 0; m < lanes; ++m) {
-          if (in[m] != 0) visit(i + m);
-        }
+        for (unsigned in = bits(most <= limit); in != 0; in &= in - 1)
+          visit(i + static_cast<std::size_t>(std::countr_zero(in)));
       }
     }
   }

@@ -1,9 +1,8 @@
 #include "enclose/enclose_balls.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,8 +18,8 @@
 
 namespace ballflow::geometry {
 namespace {
-double env(const char* n, double d) { const char* v = std::getenv(n); return v ? std::atof(v) : d; }
 
+constexpr double patches_wanted = 12000;  // two or three times as many are made
 constexpr double pi = 3.14159265358979323846;
 
 /// The corners of triangles, without other vertices.
@@ -44,15 +43,17 @@ TriangleMesh without_strays(const TriangleMesh& mesh) {
 /// The mesh in the frame, and what the search looks at.
 class Problem {
  public:
-  Problem(const TriangleMesh& mesh, std::size_t balls, Monitor& monitor) : frame_(mesh.vertices.span()), balls_(balls) {
+  Problem(const TriangleMesh& mesh, std::size_t balls, Monitor& monitor)
+      : frame_(mesh.vertices.span()), balls_(balls) {
     std::vector<Vec3> vertices;
     vertices.reserve(mesh.vertices.size());
     for (const Vec3 p : mesh.vertices) vertices.push_back(frame_.into(p));
     area_ = surface_area(vertices, mesh.triangles.span());
-    longest_ = std::max(1.9 * std::sqrt(area_ / env("PATCH", 6000)), 0.004);
+    longest_ = std::max(1.9 * std::sqrt(area_ / patches_wanted), 0.004);
     patches_ = surface_patches(vertices, mesh.triangles.span(), longest_);
     const double radius = std::max(std::sqrt(area_ / (pi * static_cast<double>(balls))), 0.01);
-    outside_ = outside_points({std::move(vertices), mesh.triangles}, {.band = 1.2 * radius, .points = (long)env("PTS", 20000)}, monitor);
+    outside_ = outside_points({std::move(vertices), mesh.triangles}, {.band = 1.2 * radius, .points = 20000},
+                              monitor);
     demanded_ = outside_.inside;
   }
 
@@ -83,17 +84,19 @@ class Problem {
     return areas;
   }
 
-  /// Cuts patches that reach out of their only ball's neighbours into it: where a part could be left to a neighbour, and the ball be
-  /// smaller.
+  /// Cuts patches that reach out of their only ball's neighbours into it: where a part could be left to a
+  /// neighbour, and the ball be smaller.
   void cut_seams(const BallCover& cover) {
     std::vector<std::uint8_t> counts(cover.vertices(), 0), cut(patches_.corners.size(), 0);
     PointBlocks vertices;
     vertices.build({cover.vertex_points()});
     for (std::size_t i = 0; i < cover.places(); ++i) {
       if (!cover.place(i).used) continue;
-      vertices.in_ball(cover.place(i).ball, [&](std::size_t v) { counts[v] = static_cast<std::uint8_t>(std::min(2, counts[v] + 1)); });
+      vertices.in_ball(cover.place(i).ball, [&](std::size_t v) {
+        counts[v] = static_cast<std::uint8_t>(std::min(2, counts[v] + 1));
+      });
     }
-    const auto slack = static_cast<float>(env("SLACK", 0.2) * longest_);
+    const auto slack = static_cast<float>(0.2 * longest_);
     for (std::size_t p = 0; p < cut.size(); ++p) {
       if (cover.patch_counts()[p] != 1) continue;
       const FloatBall& ball = cover.place(cover.place_of(p)).ball;
@@ -116,9 +119,12 @@ class Problem {
 
 int rounds_of(EncloseEffort effort) {
   switch (effort) {
-    case EncloseEffort::low: return 0;
-    case EncloseEffort::normal: return static_cast<int>(env("ROUNDS", 2));
-    case EncloseEffort::high: return 8;
+    case EncloseEffort::low:
+      return 0;
+    case EncloseEffort::normal:
+      return 2;
+    case EncloseEffort::high:
+      return 8;
   }
   return 0;
 }
@@ -127,16 +133,19 @@ int rounds_of(EncloseEffort effort) {
 void descend(const Problem& problem, BallCover& cover, EnclosingSearch& search, Monitor& monitor) {
   const std::int64_t waste = cover.waste();
   const std::vector<FloatBall> before = search.balls();
-  search.take(soft_descent(cover, problem.vertex_areas(), static_cast<float>(problem.outside().unit), before, {}, monitor));
+  search.take(soft_descent(cover, problem.vertex_areas(), static_cast<float>(problem.outside().unit), before,
+                           {}, monitor));
   search.sweep(5);
   if (cover.waste() >= waste) search.take(before);
 }
 
-std::vector<FloatBall> search_coarsely(const Problem& problem, const std::vector<FloatBall>& start, const EncloseBallsOptions& options,
-                                       Random& random, Monitor& monitor) {
+std::vector<FloatBall> search_coarsely(const Problem& problem, const std::vector<FloatBall>& start,
+                                       const EncloseBallsOptions& options, Random& random, Monitor& monitor) {
   BallCover cover = problem.cover();
   EnclosingSearch search(cover, random, monitor);
-  search.take(start.empty() ? start_balls(cover, static_cast<float>(problem.outside().unit), cover.places(), monitor) : start);
+  search.take(start.empty()
+                  ? start_balls(cover, static_cast<float>(problem.outside().unit), cover.places(), monitor)
+                  : start);
   search.sweep(3);
   PartMonitor first(monitor, 0.1, 0.25), second(monitor, 0.25, 0.4);
   descend(problem, cover, search, first);
@@ -152,13 +161,17 @@ std::vector<FloatBall> search_coarsely(const Problem& problem, const std::vector
     constexpr int most_swaps = 8;
     for (int n = 0; n < most_swaps && search.swap(); ++n) {
     }
+    PartMonitor part(monitor, 0.4 + 0.6 * (round + 0.7) / rounds, 0.4 + 0.6 * (round + 1) / rounds);
+    descend(problem, cover, search, part);
+    search.fill();
   }
   search.sweep(5);
   return search.balls();
 }
 
 /// With smaller and smaller patches at the seams.
-std::vector<FloatBall> search_finely(Problem& problem, std::vector<FloatBall> balls, Random& random, Monitor& monitor, std::int64_t& waste) {
+std::vector<FloatBall> search_finely(Problem& problem, std::vector<FloatBall> balls, Random& random,
+                                     Monitor& monitor, std::int64_t& waste) {
   constexpr int levels = 8;
   for (int level = 0; level <= levels; ++level) {
     monitor.step(static_cast<double>(level) / levels);
@@ -198,7 +211,8 @@ void grow(Balls& balls, double factor, double least) {
 }
 
 /// What the proof finds open is mended until there is nothing.
-void prove(const TriangleMesh& mesh, Problem& problem, std::vector<FloatBall> found, Random& random, EnclosingBalls& result, Monitor& monitor) {
+void prove(const TriangleMesh& mesh, Problem& problem, std::vector<FloatBall> found, Random& random,
+           EnclosingBalls& result, Monitor& monitor) {
   constexpr int most_repairs = 10;
   double factor = 1;
   for (int repair = 0;; ++repair) {
@@ -228,20 +242,24 @@ void check(const TriangleMesh& mesh, const EncloseBallsOptions& options, const B
   if (const std::string broken = broken_invariant(mesh); !broken.empty())
     throw InputError("the mesh is damaged: " + broken, "repair the mesh, or read it again");
   if (mesh.triangles.empty())
-    throw InputError("there are no triangles, so there is nothing to enclose", "give a mesh; clouds of points become one by graphs/reconstruct.json");
-  if (options.balls < 1) throw InputError("balls is " + std::to_string(options.balls), "ask for one ball at least");
+    throw InputError("there are no triangles, so there is nothing to enclose",
+                     "give a mesh; clouds of points become one by graphs/reconstruct.json");
+  if (options.balls < 1)
+    throw InputError("balls is " + std::to_string(options.balls), "ask for one ball at least");
   if (start == nullptr) return;
-  if (const std::string broken = broken_invariant(*start); !broken.empty()) throw InputError(broken, "repair or remove the ball");
+  if (const std::string broken = broken_invariant(*start); !broken.empty())
+    throw InputError(broken, "repair or remove the ball");
   if (start->size() == 0 || start->size() > static_cast<std::size_t>(options.balls)) {
-    throw InputError("the search cannot start with " + std::to_string(start->size()) + " balls where at most " +
-                         std::to_string(options.balls) + " are wanted",
+    throw InputError("the search cannot start with " + std::to_string(start->size()) +
+                         " balls where at most " + std::to_string(options.balls) + " are wanted",
                      "raise balls, or leave start unconnected");
   }
 }
 
 }  // namespace
 
-EnclosingBalls enclose_balls(const TriangleMesh& original, const EncloseBallsOptions& options, Monitor& monitor, const Balls* start) {
+EnclosingBalls enclose_balls(const TriangleMesh& original, const EncloseBallsOptions& options,
+                             Monitor& monitor, const Balls* start) {
   check(original, options, start);
   const TriangleMesh mesh = without_strays(original);
   EnclosingBalls result;
@@ -259,12 +277,14 @@ EnclosingBalls enclose_balls(const TriangleMesh& original, const EncloseBallsOpt
     for (std::size_t i = 0; i < start->size(); ++i) {
       FloatBall ball;
       const Vec3 c = problem.frame().into(start->centers[i]);
-      first.push_back({static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z), static_cast<float>(start->radii[i] / size)});
+      first.push_back({static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z),
+                       static_cast<float>(start->radii[i] / size)});
     }
   }
   PartMonitor coarse(monitor, 0.05, 0.7), fine(monitor, 0.7, 0.95), proving(monitor, 0.95, 1);
   std::int64_t waste = 0;
-  const std::vector<FloatBall> balls = search_finely(problem, search_coarsely(problem, first, options, random, coarse), random, fine, waste);
+  const std::vector<FloatBall> balls =
+      search_finely(problem, search_coarsely(problem, first, options, random, coarse), random, fine, waste);
   result.balls = out_of_frame(problem.frame(), balls);
   result.fit.outside = static_cast<double>(waste);
   prove(mesh, problem, balls, random, result, proving);
@@ -272,6 +292,7 @@ EnclosingBalls enclose_balls(const TriangleMesh& original, const EncloseBallsOpt
   result.fit.balls = static_cast<std::int64_t>(result.balls.size());
   result.fit.solid = static_cast<double>(problem.outside().solid) * unit;
   result.fit.outside *= unit;
+  result.fit.loss = result.fit.outside;
   result.fit.area = problem.area() * size * size;
   monitor.step(1);
   return result;

@@ -56,7 +56,9 @@ void EnclosingSearch::changed(const FloatBall& where) {
   splits_.resize(cover_.places());
   removals_.resize(cover_.places());
   for (std::size_t j = 0; j < cover_.places(); ++j) {
-    if (cover_.place(j).used && center_distance(cover_.place(j).ball, where) > cover_.place(j).ball.r + where.r) continue;
+    if (cover_.place(j).used &&
+        center_distance(cover_.place(j).ball, where) > cover_.place(j).ball.r + where.r)
+      continue;
     splits_[j].known = false;
     removals_[j].known = false;
   }
@@ -112,8 +114,8 @@ std::vector<std::size_t> EnclosingSearch::repair() {
   return grown;
 }
 
-FloatBall EnclosingSearch::fit_to(std::size_t i, const std::vector<std::int32_t>& patches, BallFit& fit, float coarse,
-                                  float fine) {
+FloatBall EnclosingSearch::fit_to(std::size_t i, const std::vector<std::int32_t>& patches, BallFit& fit,
+                                  float coarse, float fine) {
   // A first fit tells where the points are, the second one which are to be avoided.
   fit.begin(0, 0, 0, 0, 1);
   for (const std::int32_t p : patches) {
@@ -247,7 +249,8 @@ void EnclosingSearch::plan_split(std::size_t i) {
     plan.limit = 0.5 * (sorted[cut] + sorted[cut + 1]);
     first.clear();
     second.clear();
-    for (std::size_t p = 0; p < keys.size(); ++p) (keys[p] <= plan.limit ? first : second).push_back(patches[p]);
+    for (std::size_t p = 0; p < keys.size(); ++p)
+      (keys[p] <= plan.limit ? first : second).push_back(patches[p]);
     if (first.empty() || second.empty()) continue;
     const FloatBall a = fit_to(i, first, other_fit_, coarse_step, 0.04F),
                     b = fit_to(i, second, other_fit_, coarse_step, 0.04F);
@@ -267,7 +270,8 @@ bool EnclosingSearch::split(std::size_t i) {
   for (const std::int32_t p : only_) (key(plan, middle(p)) <= plan.limit ? first : second).push_back(p);
   if (j == cover_.places() || first.empty() || second.empty()) return false;
   const std::int64_t waste = cover_.waste();
-  const FloatBall a = fit_to(i, first, fit_, coarse_step, fine_step), b = fit_to(i, second, fit_, coarse_step, fine_step);
+  const FloatBall a = fit_to(i, first, fit_, coarse_step, fine_step),
+                  b = fit_to(i, second, fit_, coarse_step, fine_step);
   change(i, a);
   change(j, b);
   step_around(i, 2);
@@ -385,7 +389,8 @@ bool EnclosingSearch::swap() {
     if (halved == none || splits_[i].gain > splits_[halved].gain) halved = i;
   }
   constexpr double hope = 3;  // neither is exact, and steps around both gain, too
-  if (static_cast<double>(removals_[removed].loss) > hope * static_cast<double>(splits_[halved].gain)) return false;
+  if (static_cast<double>(removals_[removed].loss) > hope * static_cast<double>(splits_[halved].gain))
+    return false;
   const std::vector<Split> splits = splits_;
   const std::vector<Removal> removals = removals_;
   const std::int64_t waste = cover_.waste();

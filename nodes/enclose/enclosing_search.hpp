@@ -10,13 +10,15 @@
 
 namespace ballflow::geometry {
 
-/// Every step keeps all patches covered and none makes the waste greater. One thread; what is counted is work, not time.
+/// Every step keeps all patches covered and none makes the waste greater. One thread; what is counted is
+/// work, not time.
 class EnclosingSearch {
  public:
-  EnclosingSearch(BallCover& cover, Random& random, Monitor& monitor) : cover_(cover), random_(random), monitor_(monitor) {}
+  EnclosingSearch(BallCover& cover, Random& random, Monitor& monitor)
+      : cover_(cover), random_(random), monitor_(monitor) {}
 
-  /// Takes these balls in place of those there are, as many as there are places at most, and repairs what they leave
-  /// uncovered.
+  /// Takes these balls in place of those there are, as many as there are places at most, and repairs what
+  /// they leave uncovered.
   void take(const std::vector<FloatBall>& balls);
   std::vector<FloatBall> balls() const;
 
@@ -36,8 +38,8 @@ class EnclosingSearch {
   struct Split {
     bool known = false;
     std::int64_t gain = 0;
-    // Patches go to the first half whose middles have a key of at most `limit`: the distance from `where`, or the
-    // coordinate along it.
+    // Patches go to the first half whose middles have a key of at most `limit`: the distance from `where`, or
+    // the coordinate along it.
     bool disc = false;
     Vec3 where;
     double limit = 0;
@@ -61,7 +63,8 @@ class EnclosingSearch {
   std::vector<std::size_t> remove_and_repair(std::size_t i);
   Vec3 middle(std::int32_t patch) const;
   static double key(const Split& plan, Vec3 middle);
-  FloatBall fit_to(std::size_t i, const std::vector<std::int32_t>& patches, BallFit& fit, float coarse, float fine);
+  FloatBall fit_to(std::size_t i, const std::vector<std::int32_t>& patches, BallFit& fit, float coarse,
+                   float fine);
 
   BallCover& cover_;
   Random& random_;

@@ -5,6 +5,7 @@
 #include <xmmintrin.h>
 #endif
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -16,6 +17,7 @@
 namespace ballflow::geometry {
 
 using Lanes = float __attribute__((vector_size(16)));
+using LaneNumbers = std::int32_t __attribute__((vector_size(16)));  // and truth values of comparisons
 inline constexpr std::size_t lanes = 4;
 
 inline Lanes load(const float* values) {
@@ -24,18 +26,31 @@ inline Lanes load(const float* values) {
   return result;
 }
 inline Lanes all(float value) { return Lanes{value, value, value, value}; }
+#ifdef __SSE__
+inline Lanes greater_of(Lanes a, Lanes b) { return _mm_max_ps(a, b); }  // of a and b that are numbers
+inline Lanes less_of(Lanes a, Lanes b) { return _mm_min_ps(a, b); }
+inline Lanes square_root(Lanes a) { return _mm_sqrt_ps(a); }
+#else
 inline Lanes greater_of(Lanes a, Lanes b) { return a > b ? a : b; }
 inline Lanes less_of(Lanes a, Lanes b) { return a < b ? a : b; }
+inline Lanes square_root(Lanes a) {
+  return Lanes{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
+}
+#endif
 inline float sum(Lanes a) { return (a[0] + a[2]) + (a[1] + a[3]); }
 inline float greatest(Lanes a) {
   const float p = a[0] > a[2] ? a[0] : a[2], q = a[1] > a[3] ? a[1] : a[3];
   return p > q ? p : q;
 }
-inline Lanes square_root(Lanes a) {
+/// Bit l is set where lane l is true.
+inline unsigned bits(LaneNumbers truth) {
 #ifdef __SSE__
-  return _mm_sqrt_ps(a);
+  return static_cast<unsigned>(_mm_movemask_ps(std::bit_cast<Lanes>(truth)));
+#else
+  unsigned result = 0;
+  for (std::size_t l = 0; l < lanes; ++l) result |= truth[l] != 0 ? 1U << l : 0U;
+  return result;
 #endif
-  return Lanes{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
 }
 
 /// Points by coordinates, n floats each.

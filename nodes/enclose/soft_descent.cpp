@@ -11,33 +11,61 @@ namespace {
 /// Of x, y, z, r.
 using Gradient = std::array<float, 4>;
 
-struct Nearby {
-  std::int32_t ball;
-  float least, most;  // depth of a point of the block in the ball, at the least and at the most
+/// Balls by coordinates, padded with ones that hold nothing.
+struct FloatBalls {
+  FloatPoints centers;
+  std::vector<float> radii;
+
+  explicit FloatBalls(const std::vector<FloatBall>& balls) {
+    for (const FloatBall& ball : balls) add(ball);
+    while (radii.size() % lanes != 0) add({0, 0, 0, -1e9F});
+  }
+  void add(const FloatBall& ball) {
+    centers.push_back(ball.x, ball.y, ball.z);
+    radii.push_back(ball.r);
+  }
 };
 
-/// Balls that a point of the block may be deepest in; none where all of them are shallower than `floor`.
-void deepest_in(const FloatPoints& lower, const FloatPoints& upper, std::size_t b, const std::vector<FloatBall>& balls,
-                float floor, std::vector<Nearby>& found) {
-  found.clear();
-  float best = floor;
-  for (std::size_t i = 0; i < balls.size(); ++i) {
-    const FloatBall& ball = balls[i];
-    const auto near = [](float low, float high, float c) { return std::max(0.0F, std::max(low - c, c - high)); };
-    const auto far = [](float low, float high, float c) { return std::max(c - low, high - c); };
-    const float nx = near(lower.x[b], upper.x[b], ball.x), ny = near(lower.y[b], upper.y[b], ball.y),
-                nz = near(lower.z[b], upper.z[b], ball.z);
-    const float squared = nx * nx + ny * ny + nz * nz;
-    const float gap = ball.r - best;
-    if (gap < 0 || squared > gap * gap) continue;
-    const float fx = far(lower.x[b], upper.x[b], ball.x), fy = far(lower.y[b], upper.y[b], ball.y),
-                fz = far(lower.z[b], upper.z[b], ball.z);
-    const float least = ball.r - std::sqrt(fx * fx + fy * fy + fz * fz);
-    best = std::max(best, least);
-    found.push_back({static_cast<std::int32_t>(i), least, ball.r - std::sqrt(squared)});
+/// Which balls points of a block may be deepest in.
+class Nearby {
+ public:
+  /// Balls in which some point may be deeper than `floor` and deepest. Returns the depth that every point has
+  /// in one of them, at least; `floor` where that is not more.
+  float find(const FloatPoints& lower, const FloatPoints& upper, std::size_t b, const FloatBalls& balls,
+             float floor) {
+    const Lanes lx = all(lower.x[b]), ly = all(lower.y[b]), lz = all(lower.z[b]), ux = all(upper.x[b]),
+                uy = all(upper.y[b]), uz = all(upper.z[b]), zero = all(0);
+    most_.resize(balls.radii.size());
+    Lanes sure = all(floor);
+    for (std::size_t i = 0; i < balls.radii.size(); i += lanes) {
+      const Lanes x = load(&balls.centers.x[i]), y = load(&balls.centers.y[i]), z = load(&balls.centers.z[i]),
+                  r = load(&balls.radii[i]);
+      const auto length = [](Lanes dx, Lanes dy, Lanes dz) {
+        return square_root(dx * dx + dy * dy + dz * dz);
+      };
+      const auto gap = [&](Lanes low, Lanes high, Lanes c) {
+        return greater_of(zero, greater_of(low - c, c - high));
+      };
+      const auto span = [&](Lanes low, Lanes high, Lanes c) { return greater_of(c - low, high - c); };
+      const Lanes near = length(gap(lx, ux, x), gap(ly, uy, y), gap(lz, uz, z));
+      const Lanes far = length(span(lx, ux, x), span(ly, uy, y), span(lz, uz, z));
+      sure = greater_of(sure, r - far);
+      const Lanes most = r - near;
+      std::memcpy(&most_[i], &most, sizeof most);
+    }
+    const float best = greatest(sure);
+    balls_.clear();
+    for (std::size_t i = 0; i < most_.size(); ++i) {
+      if (most_[i] >= best && balls.radii[i] >= 0) balls_.push_back(static_cast<std::int32_t>(i));
+    }
+    return best;
   }
-  std::erase_if(found, [&](const Nearby& n) { return n.most < best; });
-}
+  const std::vector<std::int32_t>& balls() const { return balls_; }
+
+ private:
+  std::vector<float> most_;
+  std::vector<std::int32_t> balls_;
+};
 
 /// Adds weight * d(depth) of points whose deepest ball is `ball`, at the distance d from its centre.
 void add(Gradient& gradient, const FloatBall& ball, float x, float y, float z, float distance, float weight) {
@@ -50,8 +78,13 @@ void add(Gradient& gradient, const FloatBall& ball, float x, float y, float z, f
 
 class Descent {
  public:
-  Descent(const BallCover& cover, const std::vector<float>& areas, float unit, const SoftDescentOptions& options)
-      : cover_(cover), options_(options), unit_(unit), width_(options.width * cover.spacing()), areas_(areas) {
+  Descent(const BallCover& cover, const std::vector<float>& areas, float unit,
+          const SoftDescentOptions& options)
+      : cover_(cover),
+        options_(options),
+        unit_(unit),
+        width_(options.width * cover.spacing()),
+        areas_(areas) {
     vertices_.build({cover.vertex_points()});
     areas_.resize(vertices_.corner(0).size(), 0);
     for (const std::int32_t w : cover.weights()) weights_.push_back(static_cast<float>(w));
@@ -61,52 +94,55 @@ class Descent {
   std::vector<Gradient> gradients(const std::vector<FloatBall>& balls, float price) {
     std::vector<Gradient> result(balls.size(), Gradient{});
     // Points outside: within the width of the sphere they count more the deeper they are.
-    collect(cover_.point_blocks(), balls, -width_, [&](std::size_t i, float depth, std::int32_t b, float distance) {
-      if (!(depth < width_)) return;
-      const FloatPoints& p = cover_.point_blocks().corner(0);
-      add(result[static_cast<std::size_t>(b)], balls[static_cast<std::size_t>(b)], p.x[i], p.y[i], p.z[i], distance,
-          weights_[i] * unit_ / (2 * width_));
-    }, width_);
+    collect(
+        cover_.point_blocks(), balls, -width_,
+        [&](std::size_t i, float depth, std::int32_t b, float distance) {
+          if (!(depth < width_)) return;
+          const FloatPoints& p = cover_.point_blocks().corner(0);
+          add(result[static_cast<std::size_t>(b)], balls[static_cast<std::size_t>(b)], p.x[i], p.y[i], p.z[i],
+              distance, weights_[i] * unit_ / (2 * width_));
+        },
+        width_);
     // Vertices: what is not covered costs.
-    collect(vertices_, balls, -std::numeric_limits<float>::max(), [&](std::size_t i, float depth, std::int32_t b, float distance) {
-      if (!(depth < 0)) return;
-      const FloatPoints& p = vertices_.corner(0);
-      add(result[static_cast<std::size_t>(b)], balls[static_cast<std::size_t>(b)], p.x[i], p.y[i], p.z[i], distance,
-          -price * areas_[i]);
-    }, 0);
+    collect(
+        vertices_, balls, -std::numeric_limits<float>::max(),
+        [&](std::size_t i, float depth, std::int32_t b, float distance) {
+          if (!(depth < 0)) return;
+          const FloatPoints& p = vertices_.corner(0);
+          add(result[static_cast<std::size_t>(b)], balls[static_cast<std::size_t>(b)], p.x[i], p.y[i], p.z[i],
+              distance, -price * areas_[i]);
+        },
+        0);
     return result;
   }
 
  private:
-  /// Calls visit(point, depth, ball, distance) for the points of blocks, with the ball they are deepest in; blocks
-  /// that are deeper than `deep` in one ball are left out.
+  /// Calls visit(point, depth, ball, distance) for the points of blocks, with the ball they are deepest in;
+  /// blocks that are deeper than `deep` in one ball are left out.
   template <class Visit>
-  void collect(const PointBlocks& blocks, const std::vector<FloatBall>& balls, float floor, Visit visit, float deep) {
+  void collect(const PointBlocks& blocks, const std::vector<FloatBall>& balls, float floor, Visit visit,
+               float deep) {
     constexpr std::size_t block = PointBlocks::block;
-    std::array<float, block> depth{}, distance{};
-    std::array<std::int32_t, block> ball{};
+    const FloatBalls all_balls(balls);
     const FloatPoints& points = blocks.corner(0);
     for (std::size_t b = 0; b * block < blocks.size(); ++b) {
-      deepest_in(blocks.lower(), blocks.upper(), b, balls, floor, near_);
-      if (near_.empty()) continue;
-      if (std::any_of(near_.begin(), near_.end(), [&](const Nearby& n) { return n.least > deep; })) continue;
-      depth.fill(-std::numeric_limits<float>::max());
-      for (const Nearby& n : near_) {
-        const FloatBall& other = balls[static_cast<std::size_t>(n.ball)];
-        for (std::size_t i = 0; i < block; i += lanes) {
-          const Lanes away = square_root(points.squared_from(b * block + i, all(other.x), all(other.y), all(other.z)));
+      if (near_.find(blocks.lower(), blocks.upper(), b, all_balls, floor) > deep || near_.balls().empty())
+        continue;
+      for (std::size_t i = b * block; i < std::min((b + 1) * block, blocks.size()); i += lanes) {
+        Lanes depth = all(-std::numeric_limits<float>::max()), distance = all(0);
+        LaneNumbers ball{};
+        for (const std::int32_t n : near_.balls()) {
+          const FloatBall& other = balls[static_cast<std::size_t>(n)];
+          const Lanes away = square_root(points.squared_from(i, all(other.x), all(other.y), all(other.z)));
           const Lanes in = all(other.r) - away;
-          for (std::size_t l = 0; l < lanes; ++l) {
-            if (in[l] > depth[i + l]) {
-              depth[i + l] = in[l];
-              distance[i + l] = away[l];
-              ball[i + l] = n.ball;
-            }
-          }
+          const LaneNumbers deeper = in > depth, name{n, n, n, n};
+          depth = deeper ? in : depth;
+          distance = deeper ? away : distance;
+          ball = deeper ? name : ball;
         }
-      }
-      for (std::size_t i = 0; i < std::min(block, blocks.size() - b * block); ++i) {
-        if (depth[i] > floor) visit(b * block + i, depth[i], ball[i], distance[i]);
+        for (std::size_t l = 0; l < lanes && i + l < blocks.size(); ++l) {
+          if (depth[l] > floor) visit(i + l, depth[l], ball[l], distance[l]);
+        }
       }
     }
   }
@@ -116,7 +152,7 @@ class Descent {
   float unit_, width_;
   PointBlocks vertices_;
   std::vector<float> areas_, weights_;
-  std::vector<Nearby> near_;
+  Nearby near_;
 };
 
 }  // namespace
@@ -145,7 +181,8 @@ std::vector<FloatBall> soft_descent(const BallCover& cover, const std::vector<fl
         const float g = gradients[i][k];
         first[i][k] = memory * first[i][k] + (1 - memory) * g;
         second[i][k] = square_memory * second[i][k] + (1 - square_memory) * g * g;
-        const float direction = first[i][k] / (1 - first_left), size = std::sqrt(second[i][k] / (1 - second_left));
+        const float direction = first[i][k] / (1 - first_left),
+                    size = std::sqrt(second[i][k] / (1 - second_left));
         *values[k] -= rate * direction / (size + 1e-12F);
       }
       balls[i].r = std::max(balls[i].r, 0.0F);

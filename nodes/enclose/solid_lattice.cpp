@@ -17,7 +17,8 @@ class Lattice {
  public:
   Lattice(const Box& box, double spacing) : lower_(box.lower), spacing_(spacing) {
     const Vec3 size = box.upper - box.lower;
-    count_ = {1 + static_cast<std::int64_t>(size.x / spacing), 1 + static_cast<std::int64_t>(size.y / spacing),
+    count_ = {1 + static_cast<std::int64_t>(size.x / spacing),
+              1 + static_cast<std::int64_t>(size.y / spacing),
               1 + static_cast<std::int64_t>(size.z / spacing)};
   }
   const Index3& count() const { return count_; }
@@ -26,7 +27,8 @@ class Lattice {
     return static_cast<std::size_t>((i[2] * count_[1] + i[1]) * count_[0] + i[0]);
   }
   Vec3 point(const Index3& i) const {
-    return lower_ + spacing_ * Vec3{static_cast<double>(i[0]), static_cast<double>(i[1]), static_cast<double>(i[2])};
+    return lower_ +
+           spacing_ * Vec3{static_cast<double>(i[0]), static_cast<double>(i[1]), static_cast<double>(i[2])};
   }
   double spacing() const { return spacing_; }
   Vec3 lower() const { return lower_; }
@@ -58,27 +60,33 @@ double side(std::array<double, 2> a, std::array<double, 2> b, std::array<double,
 }
 
 /// Crossings with the lines of the lattice along `axis`, in order.
-std::vector<Crossing> crossings_along(std::size_t axis, const Lattice& lattice, std::span<const Vec3> vertices,
-                                      std::span<const Triangle> triangles, Lookout& look) {
+std::vector<Crossing> crossings_along(std::size_t axis, const Lattice& lattice,
+                                      std::span<const Vec3> vertices, std::span<const Triangle> triangles,
+                                      Lookout& look) {
   const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
   std::vector<Crossing> result;
   std::vector<std::array<double, 3>> scaled;  // in units of the lattice
-  for (const Vec3& p : vertices) scaled.push_back(coordinates(1.0 / lattice.spacing() * (p - lattice.lower())));
+  for (const Vec3& p : vertices)
+    scaled.push_back(coordinates(1.0 / lattice.spacing() * (p - lattice.lower())));
   for (const Triangle& triangle : triangles) {
     std::array<std::array<double, 3>, 3> p{};
     for (std::size_t k = 0; k < 3; ++k) p[k] = scaled[static_cast<std::size_t>(triangle[k])];
     const auto low = [&](std::size_t c) { return std::min({p[0][c], p[1][c], p[2][c]}); };
     const auto high = [&](std::size_t c) { return std::max({p[0][c], p[1][c], p[2][c]}); };
-    const auto first = [&](std::size_t c) { return std::max<std::int64_t>(0, static_cast<std::int64_t>(std::ceil(low(c)))); };
+    const auto first = [&](std::size_t c) {
+      return std::max<std::int64_t>(0, static_cast<std::int64_t>(std::ceil(low(c))));
+    };
     const auto last = [&](std::size_t c) {
       return std::min<std::int64_t>(lattice.count()[c] - 1, static_cast<std::int64_t>(std::floor(high(c))));
     };
     const auto flat = [&](std::size_t k) { return std::array<double, 2>{p[k][u], p[k][v]}; };
-    look(static_cast<std::size_t>(std::max<std::int64_t>(1, (last(u) - first(u) + 1) * (last(v) - first(v) + 1))));
+    look(static_cast<std::size_t>(
+        std::max<std::int64_t>(1, (last(u) - first(u) + 1) * (last(v) - first(v) + 1))));
     for (std::int64_t j = first(v); j <= last(v); ++j) {
       for (std::int64_t i = first(u); i <= last(u); ++i) {
         const std::array<double, 2> q{static_cast<double>(i), static_cast<double>(j)};
-        const double a = side(flat(1), flat(2), q), b = side(flat(2), flat(0), q), c = side(flat(0), flat(1), q);
+        const double a = side(flat(1), flat(2), q), b = side(flat(2), flat(0), q),
+                     c = side(flat(0), flat(1), q);
         const bool left = a > 0 && b > 0 && c > 0, right = a < 0 && b < 0 && c < 0;
         if (!left && !right) continue;
         const double at = (a * p[0][axis] + b * p[1][axis] + c * p[2][axis]) / (a + b + c);
@@ -95,7 +103,8 @@ struct Classes {
   std::vector<std::uint8_t> near;  // 1: a crossing is nearest to the point
 };
 
-void vote(std::size_t axis, const Lattice& lattice, const std::vector<Crossing>& crossings, Classes& classes) {
+void vote(std::size_t axis, const Lattice& lattice, const std::vector<Crossing>& crossings,
+          Classes& classes) {
   const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
   const std::int64_t count = lattice.count()[axis];
   std::size_t begin = 0;
@@ -109,11 +118,15 @@ void vote(std::size_t axis, const Lattice& lattice, const std::vector<Crossing>&
     int winding = 0;
     std::size_t next = begin;
     for (i[axis] = 0; i[axis] < count; ++i[axis]) {
-      for (; next < end && crossings[next].at < static_cast<double>(i[axis]); ++next) winding += crossings[next].sign;
-      if (total == 0) classes.votes[lattice.number(i)] = static_cast<std::int8_t>(classes.votes[lattice.number(i)] + (winding != 0 ? 1 : -1));
+      for (; next < end && crossings[next].at < static_cast<double>(i[axis]); ++next)
+        winding += crossings[next].sign;
+      if (total == 0)
+        classes.votes[lattice.number(i)] =
+            static_cast<std::int8_t>(classes.votes[lattice.number(i)] + (winding != 0 ? 1 : -1));
     }
     for (std::size_t c = begin; c < end; ++c) {
-      i[axis] = std::clamp<std::int64_t>(static_cast<std::int64_t>(std::lround(crossings[c].at)), 0, count - 1);
+      i[axis] =
+          std::clamp<std::int64_t>(static_cast<std::int64_t>(std::lround(crossings[c].at)), 0, count - 1);
       classes.near[lattice.number(i)] = 1;
     }
     begin = end;
@@ -130,7 +143,10 @@ std::vector<std::uint8_t> king_distances(const Lattice& lattice, const std::vect
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
     const auto count = static_cast<std::size_t>(lattice.count()[axis]);
-    const std::size_t stride = axis == 0 ? 1 : static_cast<std::size_t>(axis == 1 ? lattice.count()[0] : lattice.count()[0] * lattice.count()[1]);
+    const std::size_t stride =
+        axis == 0 ? 1
+                  : static_cast<std::size_t>(axis == 1 ? lattice.count()[0]
+                                                       : lattice.count()[0] * lattice.count()[1]);
     line.resize(count);
     spread.resize(count);
     for (std::int64_t j = 0; j < lattice.count()[v]; ++j) {
@@ -162,7 +178,9 @@ std::vector<std::uint8_t> king_distances(const Lattice& lattice, const std::vect
   return result;
 }
 
-Box widened(const Box& box, double by) { return {box.lower - Vec3{by, by, by}, box.upper + Vec3{by, by, by}}; }
+Box widened(const Box& box, double by) {
+  return {box.lower - Vec3{by, by, by}, box.upper + Vec3{by, by, by}};
+}
 
 double spacing_for(const Box& box, double area, const SolidLatticeOptions& options) {
   // Shares of the band at the densities 1, 1/8 and 1/64; surfaces have two sides where they are open.
@@ -204,7 +222,9 @@ OutsidePoints outside_points(const TriangleMesh& mesh, const SolidLatticeOptions
     for (i[1] = 0; i[1] < lattice.count()[1]; ++i[1]) {
       for (i[0] = 0; i[0] < lattice.count()[0]; ++i[0]) {
         const std::size_t n = lattice.number(i);
-        const auto every = [&](std::int64_t step) { return i[0] % step == 0 && i[1] % step == 0 && i[2] % step == 0; };
+        const auto every = [&](std::int64_t step) {
+          return i[0] % step == 0 && i[1] % step == 0 && i[2] % step == 0;
+        };
         if (classes.votes[n] > 0) {
           if (every(between)) result.inside.push_back(lattice.point(i));
           continue;

@@ -21,18 +21,18 @@ struct OutsidePoints {
 };
 
 struct SolidLatticeOptions {
-  double band = 0.1;          // model units: balls are not expected to stand out farther
+  double band = 0.1;            // model units: balls are not expected to stand out farther
   std::int64_t points = 40000;  // about how many of them outside
   std::int64_t inside = 1500;   // about how many of them inside
 };
 
-/// A lattice along the axes, which the surface should not be parallel to. Near the surface every point counts, from
-/// 22 % of the band on every eighth, from 55 % every 64th, beyond it every 512th, to one and a half bands around the
-/// box.
+/// A lattice along the axes, which the surface should not be parallel to. Near the surface every point
+/// counts, from 22 % of the band on every eighth, from 55 % every 64th, beyond it every 512th, to one and a
+/// half bands around the box.
 ///
 /// A point is inside when the surface winds around it, by crossings with the lines through it along the three
-/// axes; a line that leaves the surface more often than it enters it (holes) has no say, and the majority of the others
-/// decides. Triangles that disagree with their neighbours are turned over first (surface_chain).
+/// axes; a line that leaves the surface more often than it enters it (holes) has no say, and the majority of
+/// the others decides. Triangles that disagree with their neighbours are turned over first (surface_chain).
 /// - Precondition: no broken invariant, at least one triangle, a box that is not empty; band > 0.
 OutsidePoints outside_points(const TriangleMesh& mesh, const SolidLatticeOptions& options,
                              Monitor& monitor = no_monitor());

@@ -35,7 +35,8 @@ Corner normal_of(const BallCover& cover, std::size_t patch) {
   return {static_cast<float>(n.x / norm), static_cast<float>(n.y / norm), static_cast<float>(n.z / norm)};
 }
 
-/// The radius of the largest ball that touches p, whose centre lies in the direction m, and holds none of the points.
+/// The radius of the largest ball that touches p, whose centre lies in the direction m, and holds none of the
+/// points.
 float free_radius(const Corner& p, const Corner& m, const FloatPoints& points) {
   constexpr float flat = 1e-4F;  // points about in the tangential plane say nothing but noise
   float least = std::numeric_limits<float>::infinity();
@@ -55,10 +56,15 @@ float free_radius(const Corner& p, const Corner& m, const FloatPoints& points) {
 class GreedyCover {
  public:
   GreedyCover(const std::vector<FloatBall>& balls, const FloatPoints& corners, std::size_t count)
-      : balls_(balls.size()), count_(count), words_((count + 63) / 64), depth_(balls_ * count), bits_(balls_ * words_) {
+      : balls_(balls.size()),
+        count_(count),
+        words_((count + 63) / 64),
+        depth_(balls_ * count),
+        bits_(balls_ * words_) {
     for (std::size_t b = 0; b < balls_; ++b) {
       for (std::size_t v = 0; v < count; ++v)
-        depth_[b * count + v] = std::sqrt(squared_from(balls[b], corners.x[v], corners.y[v], corners.z[v])) - balls[b].r;
+        depth_[b * count + v] =
+            std::sqrt(squared_from(balls[b], corners.x[v], corners.y[v], corners.z[v])) - balls[b].r;
     }
   }
 
@@ -135,7 +141,8 @@ std::vector<FloatBall> start_balls(const BallCover& cover, float unit, std::size
       if (!(r < 1)) continue;
       const FloatBall ball{p.x + r * m.x, p.y + r * m.y, p.z + r * m.z, r};
       float outside = 0;
-      cover.point_blocks().in_ball(ball, [&](std::size_t k) { outside += static_cast<float>(cover.weights()[k]); });
+      cover.point_blocks().in_ball(ball,
+                                   [&](std::size_t k) { outside += static_cast<float>(cover.weights()[k]); });
       if (outside * unit < 0.5F * (4.0F / 3 * pi) * r * r * r) balls.push_back(ball);
     }
   }

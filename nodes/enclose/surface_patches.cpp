@@ -97,7 +97,8 @@ SurfacePatches refined(const SurfacePatches& patches, const std::vector<std::uin
   std::vector<Vec3> points;
   for (std::size_t p = 0; p < patches.corners.size(); ++p) {
     Corner3 part;
-    for (std::size_t k = 0; k < 3; ++k) part[k] = patches.vertices[static_cast<std::size_t>(patches.corners[p][k])];
+    for (std::size_t k = 0; k < 3; ++k)
+      part[k] = patches.vertices[static_cast<std::size_t>(patches.corners[p][k])];
     const std::size_t k = longest_side(part);
     const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
     if (cut[p] == 0 || distance(part[i], part[j]) <= shortest) {
@@ -116,7 +117,8 @@ double surface_area(std::span<const Vec3> vertices, std::span<const Triangle> tr
   double area = 0;
   for (const auto& [a, b, c] : triangles) {
     const Vec3 p = vertices[static_cast<std::size_t>(a)];
-    area += 0.5 * length(cross(vertices[static_cast<std::size_t>(b)] - p, vertices[static_cast<std::size_t>(c)] - p));
+    area += 0.5 * length(cross(vertices[static_cast<std::size_t>(b)] - p,
+                               vertices[static_cast<std::size_t>(c)] - p));
   }
   return area;
 }

@@ -8,7 +8,8 @@ namespace ballflow::geometry {
 std::string describe(const EnclosureFit& fit) {
   char text[96] = "";
   if (fit.solid > 0) {
-    std::snprintf(text, sizeof text, ", about %.1f %% of the solid's volume outside", 100 * fit.outside / fit.solid);
+    std::snprintf(text, sizeof text, ", about %.1f %% of the solid's volume outside",
+                  100 * fit.outside / fit.solid);
   } else {
     std::snprintf(text, sizeof text, ", about %.4g of volume around a surface that holds none", fit.outside);
   }
@@ -20,7 +21,7 @@ std::string broken_invariant(const EnclosureFit& fit) {
     return std::to_string(fit.balls) + " balls where at most " + std::to_string(fit.wanted) + " were wanted";
   }
   if (fit.filled_voids < 0) return "fewer than no voids";
-  for (const double number : {fit.solid, fit.outside, fit.area}) {
+  for (const double number : {fit.solid, fit.outside, fit.area, fit.loss}) {
     if (!std::isfinite(number) || number < 0) return "a volume or an area is negative or no number";
   }
   return "";

@@ -13,6 +13,9 @@ struct EnclosureFit {
   double solid = 0;    // volume that the surface winds around; 0 for open sheets
   double outside = 0;  // volume of the union that is not in the solid
   double area = 0;     // of the triangles, squared model units
+  // What the search makes small: the volume outside; of balls that may not hold everything, the volume or the
+  // area that they leave uncovered, in the same units.
+  double loss = 0;
   std::int64_t filled_voids = 0;  // that the first result had closed off inside, and got a point to cover
 };
 

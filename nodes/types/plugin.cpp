@@ -1,15 +1,17 @@
 // Every artifact type of ballflow; the families' own libraries declare nodes only.
 #include <ballflow/sdk/library.hpp>
 
+#include "types/enclosure_fit_type.hpp"
 #include "types/enclosure_type.hpp"
 #include "types/power_diagram_type.hpp"
 #include "types/surface_types.hpp"
 
 using namespace ballflow::geometry;
 
-BALLFLOW_PLUGIN("types", "0.1.0", ballflow::node_entries<>(),
-                (ballflow::type_entries<Balls, Bisection, Comparison, CoverCheck, CoverState, Enclosure,
-                                        Growth, LocalFeatureSize, MassProperties, MedialAxis, MeshReport,
-                                        MinkowskiReport, NoiseReport, PointSet, PoleSet, PowerDiagram,
-                                        Refinement, SampleAssignment, SimplicialComplex, SurfaceBallsReport,
-                                        SurfaceReport, TopologyCheck, TopologyTable, TriangleMesh>()))
+BALLFLOW_PLUGIN(
+    "types", "0.1.0", ballflow::node_entries<>(),
+    (ballflow::type_entries<BallCounts, Balls, Bisection, Comparison, CoverCheck, CoverState, Enclosure,
+                            EnclosureFit, Growth, LocalFeatureSize, MassProperties, MedialAxis, MeshReport,
+                            MinkowskiReport, NoiseReport, PointSet, PoleSet, PowerDiagram, Refinement,
+                            SampleAssignment, SimplicialComplex, SurfaceBallsReport, SurfaceReport,
+                            TopologyCheck, TopologyTable, TriangleMesh>()))
