@@ -85,6 +85,13 @@ BallCounts allocate_balls(std::span<const EnclosureFit> fits, const AllocateBall
   return {std::move(counts), std::move(outside)};
 }
 
+std::int64_t only_count(const BallCounts& counts) {
+  if (counts.counts.size() != 1) {
+    throw InputError("count has the counts of " + std::to_string(counts.counts.size()) + " objects", "choose one by BallCount");
+  }
+  return counts.counts[0];
+}
+
 BallCounts count_of(const BallCounts& counts, std::int64_t object) {
   if (object < 0 || object >= static_cast<std::int64_t>(counts.counts.size())) {
     throw InputError(

@@ -28,6 +28,9 @@ struct AllocateBallsOptions {
 ///   more than all balls.
 BallCounts allocate_balls(std::span<const EnclosureFit> fits, const AllocateBallsOptions& options);
 
+/// The number in the counts of one object. InputError where they are not one.
+std::int64_t only_count(const BallCounts& counts);
+
 /// The count of one object. InputError where there is no such object.
 BallCounts count_of(const BallCounts& counts, std::int64_t object);
 

@@ -2,6 +2,7 @@
 
 #include <ballflow/sdk.hpp>
 
+#include "enclose/allocate_balls.hpp"
 #include "exact/cgal_version.hpp"
 #include "types/artifact_types.hpp"
 #include "types/enclosure_fit_type.hpp"
@@ -68,14 +69,7 @@ struct EncloseBalls {
   void run(RunContext& context) {
     ContextMonitor monitor(context);
     EncloseBallsOptions wanted = options;
-    if (count) {
-      if (count->counts.size() != 1) {
-        throw geometry::InputError(
-            "count has the counts of " + std::to_string(count->counts.size()) + " objects",
-            "choose one by BallCount");
-      }
-      wanted.balls = count->counts[0];
-    }
+    if (count) wanted.balls = geometry::only_count(*count);
     geometry::EnclosingBalls found =
         geometry::enclose_balls(*mesh, wanted, monitor, start ? &*start : nullptr);
     monitor.note(geometry::describe(found.fit));

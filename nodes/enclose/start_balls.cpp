@@ -113,26 +113,32 @@ class GreedyCover {
   std::vector<std::uint64_t> bits_;
 };
 
-}  // namespace
-
-std::vector<FloatBall> start_balls(const BallCover& cover, float unit, std::size_t count, Monitor& monitor) {
-  const std::size_t patches = cover.surface_patches();
-  const std::size_t wanted = std::min<std::size_t>(patches, 2500 + 25 * std::min<std::size_t>(count, 400));
+FloatPoints some_corners(const BallCover& cover, std::size_t wanted) {
+  const std::size_t patches = cover.surface_patches(), count = std::min(patches, wanted);
   FloatPoints corners;
-  for (std::size_t i = 0; i < wanted; ++i) {
-    const std::size_t p = i * patches / wanted;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t p = i * patches / count;
     const FloatPoints& c = cover.patch_blocks().corner(i % 3);
     corners.push_back(c.x[p], c.y[p], c.z[p]);
   }
-  const std::size_t different = corners.size();
-  while (corners.size() % lanes != 0) corners.push_back(corners.x[0], corners.y[0], corners.z[0]);
+  return corners;
+}
 
-  std::vector<FloatBall> balls;
-  const std::size_t tries = std::min<std::size_t>(patches, 1200 + 4 * std::min<std::size_t>(count, 500));
+void pad(FloatPoints& points) {
+  while (points.size() % lanes != 0) points.push_back(points.x[0], points.y[0], points.z[0]);
+}
+
+}  // namespace
+
+std::vector<FloatBall> inner_balls(const BallCover& cover, float unit, std::size_t patches, Monitor& monitor) {
+  FloatPoints corners = some_corners(cover, 2500 + 2 * patches);
+  pad(corners);
+  const std::size_t all_patches = cover.surface_patches(), tries = std::min(all_patches, patches);
   constexpr float pi = 3.14159265F;
+  std::vector<FloatBall> balls;
   for (std::size_t i = 0; i < tries; ++i) {
-    monitor.step(0.5 * static_cast<double>(i) / static_cast<double>(tries));
-    const std::size_t patch = i * patches / tries;
+    monitor.step(static_cast<double>(i) / static_cast<double>(tries));
+    const std::size_t patch = i * all_patches / tries;
     const Corner p = middle_of(cover, patch), n = normal_of(cover, patch);
     if (n.x == 0 && n.y == 0 && n.z == 0) continue;
     for (const float sign : {1.0F, -1.0F}) {
@@ -141,11 +147,20 @@ std::vector<FloatBall> start_balls(const BallCover& cover, float unit, std::size
       if (!(r < 1)) continue;
       const FloatBall ball{p.x + r * m.x, p.y + r * m.y, p.z + r * m.z, r};
       float outside = 0;
-      cover.point_blocks().in_ball(ball,
-                                   [&](std::size_t k) { outside += static_cast<float>(cover.weights()[k]); });
+      cover.point_blocks().in_ball(ball, [&](std::size_t k) { outside += static_cast<float>(cover.weights()[k]); });
       if (outside * unit < 0.5F * (4.0F / 3 * pi) * r * r * r) balls.push_back(ball);
     }
   }
+  return balls;
+}
+
+std::vector<FloatBall> start_balls(const BallCover& cover, float unit, std::size_t count, Monitor& monitor) {
+  const std::size_t limited = std::min<std::size_t>(count, 400);
+  FloatPoints corners = some_corners(cover, 2500 + 25 * limited);
+  const std::size_t different = corners.size();
+  pad(corners);
+  PartMonitor first(monitor, 0, 0.5);
+  std::vector<FloatBall> balls = inner_balls(cover, unit, 1200 + 4 * limited, first);
   const std::size_t points = std::min<std::size_t>(different, 400);
   for (std::size_t i = 0; i < points; ++i) {
     const std::size_t v = i * different / points;

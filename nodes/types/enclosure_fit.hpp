@@ -6,6 +6,13 @@
 
 namespace ballflow::geometry {
 
+/// What the loss of a fit is.
+enum class FitKind : std::uint8_t {
+  outside = 0,           // the volume of the union outside of the solid: balls that hold everything
+  uncovered_volume = 1,  // the volume of the solid in no ball
+  uncovered_area = 2,    // the area of the surface in no ball
+};
+
 struct EnclosureFit {
   std::int64_t wanted = 0;  // balls at most
   std::int64_t balls = 0;   // used
@@ -13,9 +20,8 @@ struct EnclosureFit {
   double solid = 0;    // volume that the surface winds around; 0 for open sheets
   double outside = 0;  // volume of the union that is not in the solid
   double area = 0;     // of the triangles, squared model units
-  // What the search makes small: the volume outside; of balls that may not hold everything, the volume or the
-  // area that they leave uncovered, in the same units.
-  double loss = 0;
+  double loss = 0;     // what the search made small, by its kind
+  std::uint8_t kind = 0;  // FitKind
   std::int64_t filled_voids = 0;  // that the first result had closed off inside, and got a point to cover
 };
 
