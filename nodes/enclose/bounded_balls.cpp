@@ -11,10 +11,10 @@
 
 #include "base/random.hpp"
 #include "enclose/ball_cover.hpp"
-#include "enclose/generic_frame.hpp"
 #include "enclose/solid_lattice.hpp"
 #include "enclose/start_balls.hpp"
 #include "enclose/surface_patches.hpp"
+#include "search/generic_frame.hpp"
 #include "search/surface_tree.hpp"
 #include "search/winding_number.hpp"
 

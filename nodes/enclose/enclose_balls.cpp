@@ -9,11 +9,11 @@
 
 #include "enclose/ball_cover.hpp"
 #include "enclose/enclosing_search.hpp"
-#include "enclose/generic_frame.hpp"
 #include "enclose/soft_descent.hpp"
 #include "enclose/solid_lattice.hpp"
 #include "enclose/start_balls.hpp"
 #include "enclose/surface_patches.hpp"
+#include "search/generic_frame.hpp"
 #include "enclose/verify_enclosure.hpp"
 
 namespace ballflow::geometry {

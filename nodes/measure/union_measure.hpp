@@ -46,10 +46,11 @@ struct SolidVolumeOptions {
 struct SolidVolume {
   double volume = 0;    // cubed model units
   double error = 0;     // (union - solid) / solid
+  bool exact = true;    // by formula; else counted on lines, to about a thousandth
   std::string warning;  // why to worry and what to do, in words; or empty
 };
-/// Nothing where the mesh is not closed or has no volume. What shells inside
-/// each other wind around twice counts once, where the surface crosses itself twice.
+/// The volume of what the surface winds around, once or several times: of shells in each other, crossing
+/// pieces, triangles that are there twice. Nothing where the mesh is not closed or has no volume.
 std::optional<SolidVolume> compare_volume(const MassProperties& of_union, const TriangleMesh& solid,
                                           const SolidVolumeOptions& options, Monitor& monitor = no_monitor());
 

@@ -17,7 +17,7 @@ struct UnionMeasure {
   geometry::SolidVolumeOptions options;
 
   static void declare(NodeDecl<UnionMeasure>& d) {
-    d.id("UnionMeasure", 2).summary("Volume, area, centre of mass and inertia tensor of a union of balls.");
+    d.id("UnionMeasure", 3).summary("Volume, area, centre of mass and inertia tensor of a union of balls.");
     d.doc(
         "By formulas on the patches, arcs and corners of the boundary, which the alpha-shape names: nothing "
         "is "
@@ -36,8 +36,9 @@ struct UnionMeasure {
         .doc("the solid that the union stands for: where it is closed its exact volume is compared with");
     d.output("measure", &UnionMeasure::measure)
         .doc(
-            "at density 1, in powers of model units; with a closed mesh the summary adds solid_volume and "
-            "volume_error, (union - solid) / solid");
+            "at density 1, in powers of model units; with a closed mesh the summary adds solid_volume, "
+ "volume_error, (union - solid) / solid, and solid_volume_exact: false where the surface crosses itself, or has "
+ "triangles twice, so that the volume is counted on lines, to about a thousandth");
     d.param("tolerance", &UnionMeasure::options, &geometry::SolidVolumeOptions::tolerance)
         .unit("% of the volume of the solid")
         .at_least(0)
@@ -51,6 +52,7 @@ struct UnionMeasure {
       if (const auto solid = geometry::compare_volume(result, *mesh, options, monitor)) {
         measure.summary("solid_volume", solid->volume);
         measure.summary("volume_error", solid->error);
+        measure.summary("solid_volume_exact", solid->exact);
         if (!solid->warning.empty()) monitor.warn(solid->warning);
       }
     }
