@@ -13,8 +13,8 @@
 #include "enclose/solid_lattice.hpp"
 #include "enclose/start_balls.hpp"
 #include "enclose/surface_patches.hpp"
-#include "search/generic_frame.hpp"
 #include "enclose/verify_enclosure.hpp"
+#include "search/generic_frame.hpp"
 
 namespace ballflow::geometry {
 namespace {

@@ -13,8 +13,8 @@
 namespace ballflow::geometry {
 namespace {
 
-/// The volume of what the surface winds around over the integral of how often it does, on lines along three axes: 1
-/// where that is once everywhere, whatever the lines miss.
+/// The volume of what the surface winds around over the integral of how often it does, on lines along three
+/// axes: 1 where that is once everywhere, whatever the lines miss.
 double share_of_volume(const TriangleMesh& mesh, const SurfaceChain& chain, Monitor& monitor) {
   const GenericFrame frame(mesh.vertices.span());
   std::vector<Vec3> vertices;

@@ -37,8 +37,9 @@ struct UnionMeasure {
     d.output("measure", &UnionMeasure::measure)
         .doc(
             "at density 1, in powers of model units; with a closed mesh the summary adds solid_volume, "
- "volume_error, (union - solid) / solid, and solid_volume_exact: false where the surface crosses itself, or has "
- "triangles twice, so that the volume is counted on lines, to about a thousandth");
+            "volume_error, (union - solid) / solid, and solid_volume_exact: false where the surface crosses "
+            "itself, or has "
+            "triangles twice, so that the volume is counted on lines, to about a thousandth");
     d.param("tolerance", &UnionMeasure::options, &geometry::SolidVolumeOptions::tolerance)
         .unit("% of the volume of the solid")
         .at_least(0)

@@ -43,7 +43,8 @@ class Lattice {
 
 /// Where a line along one axis meets the surface.
 struct Crossing {
-  std::int64_t line;  // (place along the axis after the next) * (points along the next) + place along the next
+  std::int64_t
+      line;   // (place along the axis after the next) * (points along the next) + place along the next
   double at;  // in units of the lattice
   int sign;   // which way the triangle faces: lines enter and leave closed surfaces by opposite ones
   friend bool operator<(const Crossing& a, const Crossing& b) {
@@ -51,10 +52,11 @@ struct Crossing {
   }
 };
 
-/// All crossings with the lines along `axis`, line by line and ascending. Where two triangles share an edge, a line
-/// between them meets one of them: sides of edges are computed in one way. Lines that run exactly through an edge meet none,
-/// so the surface should not be parallel to the lattice.
-std::vector<Crossing> crossings_along(std::size_t axis, const Lattice& lattice, std::span<const Vec3> vertices,
-                                      std::span<const Triangle> triangles, Lookout& look);
+/// All crossings with the lines along `axis`, line by line and ascending. Where two triangles share an edge,
+/// a line between them meets one of them: sides of edges are computed in one way. Lines that run exactly
+/// through an edge meet none, so the surface should not be parallel to the lattice.
+std::vector<Crossing> crossings_along(std::size_t axis, const Lattice& lattice,
+                                      std::span<const Vec3> vertices, std::span<const Triangle> triangles,
+                                      Lookout& look);
 
 }  // namespace ballflow::geometry

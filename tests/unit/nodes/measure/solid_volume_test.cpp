@@ -16,8 +16,18 @@ void add_box(TriangleMesh& mesh, Vec3 lower, Vec3 upper, bool inwards = false) {
     v.push_back({(k & 1) != 0 ? upper.x : lower.x, (k & 2) != 0 ? upper.y : lower.y,
                  (k & 4) != 0 ? upper.z : lower.z});
   }
-  for (Triangle face : std::vector<Triangle>{{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                                             {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}}) {
+  for (Triangle face : std::vector<Triangle>{{0, 2, 3},
+                                             {0, 3, 1},
+                                             {4, 5, 7},
+                                             {4, 7, 6},
+                                             {0, 1, 5},
+                                             {0, 5, 4},
+                                             {2, 6, 7},
+                                             {2, 7, 3},
+                                             {0, 4, 6},
+                                             {0, 6, 2},
+                                             {1, 3, 7},
+                                             {1, 7, 5}}) {
     for (std::int32_t& corner : face) corner += first;
     if (inwards) std::swap(face[0], face[1]);
     t.push_back(face);
