@@ -50,6 +50,7 @@ struct AllocateBalls {
         "for proportional to that. Small objects "
         "get few balls then, and a large part of their volume outside: minimum and weights help them.");
     d.avoid_when("there is one object.");
+    d.cites("fox1966", "one after another to whom gains most is best where gains fall");
     d.memory(1 << 20, 1);
     d.input("fits", &AllocateBalls::fits)
         .doc(
@@ -90,6 +91,7 @@ struct BallCount {
     d.doc(
         "So that what one object gets depends on its own number only, and stays in the cache when others "
         "change.");
+    d.cites("fox1966", "where the counts come from");
     d.avoid_when("a number is known beforehand: the parameter balls of EncloseBalls.");
     d.memory(1 << 16, 1);
     d.input("counts", &BallCount::counts).doc("of several objects");

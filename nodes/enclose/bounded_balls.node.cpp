@@ -16,6 +16,7 @@ using geometry::BoundedBallsOptions;
 /// What both nodes have.
 template <class Node>
 void declare_ports(NodeDecl<Node>& d) {
+  d.cites("ma2012", "largest inner balls through points of the surface");
   d.library("CGAL", geometry::cgal_version());
   d.memory(64 << 20, 100);
   d.input("mesh", &Node::mesh).doc("a closed mesh, model units; orientation does not matter");

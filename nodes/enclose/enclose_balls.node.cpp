@@ -38,6 +38,7 @@ struct EncloseBalls {
     d.avoid_when(
         "balls must not stand out of the solid: InsideBalls; or only by a given distance: ProtrudeBalls.");
     d.cites("kingma2015", "all balls move downhill at once by Adam");
+    d.cites("ma2012", "inner balls that the search starts from");
     d.library("CGAL", geometry::cgal_version());
     d.memory(64 << 20, 100);
     d.input("mesh", &EncloseBalls::mesh).doc("m triangles, model units");
