@@ -3,13 +3,14 @@
 
 #include "types/enclosure_type.hpp"
 #include "types/power_diagram_type.hpp"
+#include "types/robot_type.hpp"
 #include "types/surface_types.hpp"
 
 using namespace ballflow::geometry;
 
 BALLFLOW_PLUGIN("types", "0.1.0", ballflow::node_entries<>(),
-                (ballflow::type_entries<Balls, Bisection, Comparison, CoverCheck, CoverState, Enclosure,
-                                        Growth, LocalFeatureSize, MassProperties, MedialAxis, MeshReport,
-                                        MinkowskiReport, NoiseReport, PointSet, PoleSet, PowerDiagram,
-                                        Refinement, SampleAssignment, SimplicialComplex, SurfaceBallsReport,
-                                        SurfaceReport, TopologyCheck, TopologyTable, TriangleMesh>()))
+                (ballflow::type_entries<
+                    Balls, Bisection, Comparison, CoverCheck, CoverState, Enclosure, Growth, LocalFeatureSize,
+                    MassProperties, MedialAxis, MeshReport, MinkowskiReport, NoiseReport, PointSet, PoleSet,
+                    PowerDiagram, Refinement, Robot, RobotSpheres, SampleAssignment, SimplicialComplex,
+                    SurfaceBallsReport, SurfaceReport, TopologyCheck, TopologyTable, TriangleMesh>()))

@@ -130,8 +130,9 @@ class Expander {
     if (const PlacedSetting* setting = settings_.find(path, param.name)) return value_of(*setting, param);
     given = written != nullptr;
     if (!given) return std::nullopt;
-    const std::optional<Json> value = written->value.evaluate(scope.params);
+    std::optional<Json> value = written->value.evaluate(scope.params);
     if (!value) return std::nullopt;
+    if (param.kind == ParamKind::string && value->is_array()) value = value->dump();  // ["hand","arm"]
     if (std::string why = param.refuse(*value); !why.empty()) {
       findings_.error(*scope.file, written->value.offset, in_quotes(param.name) + " " + why,
                       param_hint(param, *value));
