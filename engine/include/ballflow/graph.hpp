@@ -45,7 +45,8 @@
 // files (files also as patterns), or lists as they are, ["hand", "arm"]. The first list names the copies, so
 // that it has no entry twice: "links[hand]", "links[arm]". The others are as long as that, or have one entry
 // for all. An entry is a text that is read as --set reads it. `inputs` and `params` are the same for every
-// copy. "links.balls" is then a list of artifacts, in the order of the entries: for a port that takes one
+// copy. "index": "place" gives a parameter of the body the place of its entry, from 0 on. "links.balls" is
+// then a list of artifacts, in the order of the entries: for a port that takes one
 // ("spheres": "links.balls", or a part of ["links.balls", "base.balls"]), or an output of the graph
 // ("hand/balls", "arm/balls"). The copies are nodes like any others, whose keys depend on their content and
 // not on their place. --set links/enclose.rounds=3 is for all copies, --set links[hand]/enclose.rounds=3 for

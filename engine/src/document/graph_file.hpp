@@ -81,8 +81,10 @@ struct GraphNode {
     const Param* param(const std::string& name) const;
   };
   struct Map {
-    Template body;            // a file
-    std::vector<Param> over;  // parameters of the body, each with a list; the first one names the copies
+    Template body;                 // a file
+    std::vector<Param> over = {};  // parameters of the body, each with a list; the first one names the copies
+    std::string index = {};        // the parameter of the body that gets the place in the lists; empty: none
+    Offset index_offset = 0;
   };
   std::string name;
   Offset offset = 0;

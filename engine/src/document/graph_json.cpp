@@ -176,8 +176,8 @@ class Reader {
       return;
     }
     const bool keys_known = known_keys(member.value, "a node",
-                                       {"type", "graph", "loop", "map", "over", "inputs", "params", "until",
-                                        "max_iterations", "at_limit", "doc"});
+                                       {"type", "graph", "loop", "map", "over", "index", "inputs", "params",
+                                        "until", "max_iterations", "at_limit", "doc"});
     const char* kind = nullptr;
     for (const char* const key : {"type", "graph", "loop", "map"}) {
       const Value* value = member.value.find(key);
@@ -209,6 +209,8 @@ class Reader {
       error(node.offset, "map " + in_quotes(node.name) + " has no \"over\"",
             "\"over\": { \"parameter\": \"${list}\" }, a parameter of the body and the list it goes through");
     std::vector<GraphNode::Param> loop_params, over;
+    std::string index;
+    Offset index_offset = 0;
     for (const Member& field : member.value.members) {
       if (field.key == "doc") text(field, ignored_);
       if (field.key == "until" || field.key == "max_iterations" || field.key == "at_limit") {
@@ -219,6 +221,12 @@ class Reader {
                 in_quotes(field.key) + " is for loops, node " + in_quotes(node.name) + " is none",
                 "\"loop\": \"body.json\" makes a node a loop");
         }
+      }
+      if (field.key == "index" && !is_map) {
+        error(field.offset, "\"index\" is for maps, node " + in_quotes(node.name) + " is none",
+              "\"map\": \"body.json\" makes a node a map");
+      } else if (field.key == "index" && text(field, index)) {
+        index_offset = field.value.offset;
       }
       if (field.key == "over" && !is_map) {
         error(field.offset, "\"over\" is for maps, node " + in_quotes(node.name) + " is none",
@@ -270,6 +278,8 @@ class Reader {
     if (auto* loop = std::get_if<GraphNode::Loop>(&node.kind)) loop->params = std::move(loop_params);
     if (auto* map = std::get_if<GraphNode::Map>(&node.kind)) {
       map->over = std::move(over);
+      map->index = std::move(index);
+      map->index_offset = index_offset;
       if (map->over.empty()) node.broken = true;  // reported
     }
     if (node.broken) node.kind = {};

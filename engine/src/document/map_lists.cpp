@@ -67,6 +67,30 @@ bool read_map(const GraphFile& file, const std::vector<std::optional<Json>>& par
     lists.push_back(std::move(list));
   }
   if (!good || lists.empty()) return false;
+  if (!written.index.empty()) {
+    const auto place = body.param_index.find(written.index);
+    const auto in_over = [&](const GraphNode::Param& over) { return over.name == written.index; };
+    if (place == body.param_index.end()) {
+      const std::string hint = did_you_mean(written.index, known);
+      error(written.index_offset,
+            "map body " + in_quotes(body.source.file()) + " has no parameter " + in_quotes(written.index),
+            hint.empty() ? "parameters are " + listed(known) : hint);
+      return false;
+    }
+    if (node.param(written.index) != nullptr ||
+        std::any_of(written.over.begin(), written.over.end(), in_over)) {
+      error(written.index_offset,
+            "parameter " + in_quotes(written.index) + " of " + owner + " has a value already",
+            "let \"index\" be another one");
+      return false;
+    }
+    MapList places;
+    places.param = &body.params[place->second].decl;
+    places.offset = written.index_offset;
+    for (std::size_t i = 0; i < lists.front().entries.size(); ++i)
+      places.entries.push_back(std::to_string(i));
+    lists.push_back(std::move(places));
+  }
   const MapList& first = lists.front();
   if (first.entries.empty()) {
     error(first.offset,

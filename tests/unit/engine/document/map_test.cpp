@@ -112,6 +112,18 @@ TEST_F(Map, goes_over_lists_together_and_one_entry_is_for_all) {
   EXPECT_EQ(dag.find("links[arm]/grow")->params.at("steps"), 8);
 }
 
+TEST_F(Map, tells_copies_their_place) {
+  const Dag dag = parse(graph(R"("over":{"name":"${names}"},"index":"epsilon")", gather(), all_balls));
+  EXPECT_EQ(dag.find("links[hand]/grow")->params.at("epsilon"), 0.0);
+  EXPECT_EQ(dag.find("links[arm]/grow")->params.at("epsilon"), 1.0);
+  EXPECT_EQ(errors(R"("over":{"name":"${names}"},"index":"epsilom")", gather(), all_balls),
+            "g.json:5:36: map body \"body.json\" has no parameter \"epsilom\" (at /nodes/links/index)\n"
+            "  did you mean \"epsilon\"?\n");
+  EXPECT_EQ(errors(R"("over":{"name":"${names}"},"index":"name")", gather(), all_balls),
+            "g.json:5:36: parameter \"name\" of map \"links\" has a value already (at /nodes/links/index)\n"
+            "  let \"index\" be another one\n");
+}
+
 TEST_F(Map, outputs_of_the_graph_have_the_entry_before_their_name) {
   const Dag dag = parse(graph(plain(), "", R"({"balls":{"from":"links.balls","doc":"d"}})"));
   ASSERT_EQ(dag.outputs.size(), 2U);
