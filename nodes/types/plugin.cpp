@@ -4,6 +4,7 @@
 #include "types/enclosure_fit_type.hpp"
 #include "types/enclosure_type.hpp"
 #include "types/power_diagram_type.hpp"
+#include "types/robot_type.hpp"
 #include "types/surface_types.hpp"
 
 using namespace ballflow::geometry;
@@ -12,6 +13,6 @@ BALLFLOW_PLUGIN(
     "types", "0.1.0", ballflow::node_entries<>(),
     (ballflow::type_entries<BallCounts, Balls, Bisection, Comparison, CoverCheck, CoverState, Enclosure,
                             EnclosureFit, Growth, LocalFeatureSize, MassProperties, MedialAxis, MeshReport,
-                            MinkowskiReport, NoiseReport, PointSet, PoleSet, PowerDiagram, Refinement,
-                            SampleAssignment, SimplicialComplex, SurfaceBallsReport, SurfaceReport,
-                            TopologyCheck, TopologyTable, TriangleMesh>()))
+                            MinkowskiReport, NoiseReport, PointSet, PoleSet, PowerDiagram, Refinement, Robot,
+                            RobotSpheres, SampleAssignment, SimplicialComplex, SurfaceBallsReport,
+                            SurfaceReport, TopologyCheck, TopologyTable, TriangleMesh>()))

@@ -1,6 +1,7 @@
 // What the command line exports of a real run, in every format that it offers.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -24,8 +25,11 @@ struct ExportTest : testing::Test {
   /// Type and digest of the outputs of a graph.
   std::map<std::string, std::pair<std::string, std::string>> outputs(const std::string& graph) {
     const std::string report = folder.file("report.json");
-    const ProcessResult result = ballflow({"run", test::source_file("graphs/" + graph + ".json"), "--set",
-                                           "input=shape:torus?n=1500", "--report", report});
+    std::vector<std::string> run = {"run", test::source_file("graphs/" + graph + ".json"), "--report",
+                                    report};
+    run.insert(run.end(),
+               {"--set", graph == "check_spheres" ? "links=hand,left_finger" : "input=shape:torus?n=1500"});
+    const ProcessResult result = ballflow(run);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     std::map<std::string, std::pair<std::string, std::string>> found;
     const json document = json::parse(test::read_file(report));
@@ -33,6 +37,12 @@ struct ExportTest : testing::Test {
       found[name] = {output.at("type"), output.at("digest")};
     }
     return found;
+  }
+
+  /// Outputs of maps have a slash in their names.
+  static std::string file_of(const char* graph, std::string name) {
+    std::replace(name.begin(), name.end(), '/', '-');
+    return std::string(graph) + "-" + name;
   }
 
   /// The formats of every type, from the help: "  Balls    ply, csv".
@@ -60,14 +70,15 @@ TEST_F(ExportTest, every_type_of_a_run_is_exported_to_the_last_bit_in_every_form
   ASSERT_GE(known.size(), 7u);
   std::map<std::string, int> written;
   std::size_t files = 0;
-  for (const char* graph : {"dmt", "medial_axis", "growth", "local_feature_size", "seed_polytope"}) {
+  for (const char* graph :
+       {"dmt", "medial_axis", "growth", "local_feature_size", "seed_polytope", "check_spheres"}) {
     for (const auto& [name, output] : outputs(graph)) {
       const auto& [type, digest] = output;
       const std::vector<std::string> all =
           known.count(type) != 0 ? known.at(type) : std::vector<std::string>{"json", "safetensors"};
       for (const std::string& format : all) {
         const ProcessResult result =
-            ballflow({"export", digest, folder.file(std::string(graph) + "-" + name + "." + format)});
+            ballflow({"export", digest, folder.file(file_of(graph, name) + "." + format)});
         EXPECT_EQ(result.exit_code, 0) << type << " " << format << ": " << result.err;
         files += format != "safetensors" ? 1 : 0;
       }

@@ -52,10 +52,12 @@ class Execution {
     run.progress = [](void*, double) {};
     run.log = [](void*, std::uint32_t, bf_bytes) {};
     run.input_count = [](void* self, bf_bytes port) -> std::uint64_t {
-      return of(self).views_.count(std::string(port.data, port.size));
+      std::uint64_t count = 0;
+      while (of(self).find({port.data, port.size}, count) != of(self).views_.end()) ++count;
+      return count;
     };
-    run.input = [](void* self, bf_bytes port, std::uint64_t, bf_artifact* artifact) -> int {
-      const auto found = of(self).views_.find(std::string(port.data, port.size));
+    run.input = [](void* self, bf_bytes port, std::uint64_t index, bf_artifact* artifact) -> int {
+      const auto found = of(self).find({port.data, port.size}, index);
       if (found == of(self).views_.end()) return 0;
       *artifact = found->second.raw();
       return 1;
@@ -85,6 +87,16 @@ class Execution {
   double latency = 0;              // from the cancellation to the end
 
  private:
+  /// An input by its port and, of a list, its place there.
+  std::map<std::string, ArtifactView>::const_iterator find(const std::string& port,
+                                                           std::uint64_t index) const {
+    const PortDecl* decl = find_input(node_.kind.inputs(), port);
+    const bool list = find_input(node_.kind.inputs(), list_slot(port, 0)) != nullptr;
+    if (decl == nullptr && !list) return views_.end();
+    if (list) return views_.find(list_slot(port, index));
+    return index == 0 ? views_.find(port) : views_.end();
+  }
+
   static Execution& of(void* self) { return *static_cast<Execution*>(self); }
 
   void since_last_look(double now) {

@@ -41,7 +41,9 @@ Json another_value(const ParamDecl& param) {
     case ParamKind::choice:
       for (const auto& [value, doc] : param.choices) candidates.push_back(value);
       break;
-    case ParamKind::artifact:  // no node has one
+    case ParamKind::list:  // no node has one of these
+    case ParamKind::files:
+    case ParamKind::artifact:
       break;
     case ParamKind::string:
       candidates = {param.required ? Json("other") : Json(param.default_value.get<std::string>() + "x")};

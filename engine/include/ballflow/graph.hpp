@@ -38,6 +38,20 @@
 // true is 1. `at_limit` says what happens when max_iterations (default 10000) have run and `until` does not
 // hold: "error" (default), or "stop", which keeps the state reached and warns.
 //
+// A map is a subgraph that is there once for every entry of a list:
+//   "links": { "map": "bodies/link.json", "over": { "link": "${links}", "balls": "${counts}" },
+//              "inputs": { "robot": "read.robot" }, "params": { "seed": 1 } }
+// `over` names parameters of the body and the lists that they go through together: parameters of kind list or
+// files (files also as patterns), or lists as they are, ["hand", "arm"]. The first list names the copies, so
+// that it has no entry twice: "links[hand]", "links[arm]". The others are as long as that, or have one entry
+// for all. An entry is a text that is read as --set reads it. `inputs` and `params` are the same for every
+// copy. "index": "place" gives a parameter of the body the place of its entry, from 0 on. "links.balls" is
+// then a list of artifacts, in the order of the entries: for a port that takes one
+// ("spheres": "links.balls", or a part of ["links.balls", "base.balls"]), or an output of the graph
+// ("hand/balls", "arm/balls"). The copies are nodes like any others, whose keys depend on their content and
+// not on their place. --set links/enclose.rounds=3 is for all copies, --set links[hand]/enclose.rounds=3 for
+// one.
+//
 // A sweep runs a graph once for every combination of values; what combinations have in common runs once:
 //   "sweep": { "axes": { "epsilon": [0.1, 0.3], "prune/greedy.mode": ["all", "until_covered"] },
 //              "mode": "product", "exclude": [{ "epsilon": 0.1, "prune/greedy.mode": "all" }] },
@@ -133,7 +147,7 @@ class NodeKind {
 };
 
 struct DagNode {
-  std::string path;  // "prune/greedy": node names from the top graph down
+  std::string path;  // "prune/greedy": node names from the top graph down; of a map "links[hand]/enclose"
   NodeKind kind;
   std::map<std::string, EdgeRef> inputs = {};  // connected ports only
   std::map<std::string, Json> params = {};     // every declared parameter, defaults filled in, checked
@@ -141,7 +155,8 @@ struct DagNode {
 };
 
 struct DagOutput {
-  std::string name, doc;  // of a sweep: "epsilon=0.1,strategy=greedy/balls", the name of the variant first
+  // Of a sweep "epsilon=0.1,strategy=greedy/balls", the name of the variant first; of a map "hand/balls".
+  std::string name, doc;
   EdgeRef from;
 
   /// "balls"
@@ -216,6 +231,9 @@ using FindArtifact = std::function<ArtifactPtr(const std::string& name)>;
 
 /// The path of a node without the variants that have it: "[epsilon=0.1]/enlarge" -> "enlarge".
 std::string base_path(const std::string& path);
+/// The path of a node without the entries that maps made their copies for: "links[hand]/enclose" ->
+/// "links/enclose".
+std::string without_entries(const std::string& path);
 
 /// Reads, expands and checks a graph file: syntax, unknown and duplicate keys, node types, ports, types of
 /// edges, required inputs, cycles, parameter kinds and ranges, settings that match nothing. Throws
@@ -240,9 +258,10 @@ std::vector<bool> needed_nodes(const Dag& dag);
 /// Which nodes these need, themselves included.
 std::vector<bool> needed_nodes(const Dag& dag, const std::set<std::size_t>& targets);
 
-/// The node of this path, or all nodes of this subgraph ("prune" has "prune/reduce" and "prune/greedy"). In a
-/// sweep "prune" means that of every variant, and the name of a variant all its nodes.
-/// Throws Error (code usage) with the nearest path when there is none.
+/// The node of this path, or all nodes of this subgraph ("prune" has "prune/reduce" and "prune/greedy"), or
+/// of all copies of a map ("links/enclose" is "links[hand]/enclose" and "links[arm]/enclose"). In a sweep
+/// "prune" means that of every variant, and the name of a variant all its nodes. Throws Error (code usage)
+/// with the nearest path when there is none.
 std::set<std::size_t> nodes_named(const Dag& dag, const std::string& path);
 
 }  // namespace ballflow

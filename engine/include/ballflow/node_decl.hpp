@@ -54,7 +54,11 @@ std::string_view port_of_slot(std::string_view slot);
 /// The port that has the slot; null when there is none, and for a place in what is no list.
 const PortDecl* find_input(const std::vector<PortDecl>& inputs, std::string_view slot);
 
-enum class ParamKind { number, integer, boolean, string, choice, file, artifact };  // the last of graphs only
+// The last three of graphs only.
+enum class ParamKind { number, integer, boolean, string, choice, file, list, files, artifact };
+
+/// A list of texts, or of files.
+constexpr bool is_list(ParamKind kind) { return kind == ParamKind::list || kind == ParamKind::files; }
 
 struct ParamDecl {
   std::string name, doc, unit;

@@ -125,6 +125,12 @@ typedef struct bf_node {
   void* self;           /* first argument of run: an object of another language, or null */
   /* Returns a bf_status. Keeps nothing from run to run, may run in several threads at once. */
   int (*run)(void* self, const bf_run* run);
+  /* May be null. Which files the node will read besides those that its parameters name, because those name
+   * them: calls found(context, name, path) for each, with the name as it is written there, and an empty path
+   * where there is no such file. `params` is as in bf_run. What it finds enters the key by content. It is
+   * called for every plan, so it must be quick, and finds nothing where the node would fail. */
+  void (*files)(void* self, bf_bytes params, void* context,
+                void (*found)(void* context, bf_bytes name, bf_bytes path));
 } bf_node;
 #define BF_NODE_MIN_SIZE BALLFLOW_SIZE_UP_TO(bf_node, run)
 

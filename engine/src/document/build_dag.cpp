@@ -64,13 +64,15 @@ class Builder {
   void add_outputs(Dag& dag, std::size_t scope, const std::vector<std::size_t>& place,
                    const std::map<std::string, std::size_t>& given = {}) {
     for (const GraphOutput& output : expansion_.file_of(scope).outputs) {
-      const Target target = references_.resolve(scope, output.from);
-      if (target.kind == Target::Kind::leaf)
-        dag.outputs.push_back({output.name, output.doc, {place[target.leaf], target.port}});
-      if (target.kind == Target::Kind::from_loop)
-        dag.outputs.push_back({output.name, output.doc, {loop_input, target.port}});
-      if (target.kind == Target::Kind::given)
-        dag.outputs.push_back({output.name, output.doc, {given.at(target.port), target.port}});
+      for (const auto& [entry, target] : references_.resolve_all(scope, output.from)) {
+        const std::string name = entry.empty() ? output.name : entry + "/" + output.name;
+        if (target.kind == Target::Kind::leaf)
+          dag.outputs.push_back({name, output.doc, {place[target.leaf], target.port}});
+        if (target.kind == Target::Kind::from_loop)
+          dag.outputs.push_back({name, output.doc, {loop_input, target.port}});
+        if (target.kind == Target::Kind::given)
+          dag.outputs.push_back({name, output.doc, {given.at(target.port), target.port}});
+      }
     }
   }
 

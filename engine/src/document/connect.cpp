@@ -47,6 +47,7 @@ class Connector {
     std::string id;
     int version = 0;  // 0 where a graph input declares the type
     bool optional = false;
+    bool list = false;  // several, from a map
   };
 
   void check_interfaces() {
@@ -115,6 +116,11 @@ class Connector {
       if (child.output_index.contains(reference.port)) return;
       for (const GraphOutput& output : child.outputs) ports.push_back(output.name);
       owner = "subgraph " + in_quotes(producer.name) + " (" + child.source.file() + ")";
+    } else if (slot.kind == Scope::Slot::Kind::map) {
+      const GraphFile& body = *expansion_.maps[slot.index].body;
+      if (body.output_index.contains(reference.port)) return;
+      for (const GraphOutput& output : body.outputs) ports.push_back(output.name);
+      owner = "map " + in_quotes(producer.name) + " (" + body.source.file() + ")";
     } else {
       return;
     }
@@ -127,25 +133,32 @@ class Connector {
   /// The type a reference has where it is written. Follows subgraph outputs down, never inputs up, so that
   /// a wrong edge is reported on one side of an interface only.
   std::optional<PortType> type_of(std::size_t scope, const Reference* reference) const {
+    bool list = false;
     for (std::size_t depth = 0; depth <= max_subgraph_depth; ++depth) {
       if (reference->kind == Reference::Kind::broken) return std::nullopt;
       if (reference->kind == Reference::Kind::input) {
         const GraphInput& input = file_of(scope).inputs[reference->index];
         if (input.broken || !known_type(input.type)) return std::nullopt;
         const auto given = scope == 0 ? given_.find(input.name) : given_.end();
-        if (given != given_.end()) return PortType{input.type, given->second->version(), false};
-        return PortType{input.type, 0, input.optional};
+        if (given != given_.end()) return PortType{input.type, given->second->version(), false, list};
+        return PortType{input.type, 0, input.optional, list};
       }
       const Scope::Slot slot = expansion_.scopes[scope].slots[reference->index];
       if (slot.kind == Scope::Slot::Kind::broken) return std::nullopt;
       if (slot.kind == Scope::Slot::Kind::leaf) {
         const PortDecl* port = expansion_.leaves[slot.index].kind.output(reference->port);
         if (port == nullptr) return std::nullopt;
-        return PortType{port->type, port->type_version, false};
+        return PortType{port->type, port->type_version, false, list};
       }
-      const auto output = file_of(slot.index).output_index.find(reference->port);
-      if (output == file_of(slot.index).output_index.end()) return std::nullopt;
-      scope = slot.index;
+      std::size_t inner = slot.index;
+      if (slot.kind == Scope::Slot::Kind::map) {
+        list = true;
+        if (expansion_.maps[slot.index].scopes.empty()) return std::nullopt;
+        inner = expansion_.maps[slot.index].scopes.front();  // all copies have the same types
+      }
+      const auto output = file_of(inner).output_index.find(reference->port);
+      if (output == file_of(inner).output_index.end()) return std::nullopt;
+      scope = inner;
       reference = &file_of(scope).outputs[output->second].from;
     }
     return std::nullopt;
@@ -173,25 +186,28 @@ class Connector {
           const auto port = std::find_if(kind.inputs().begin(), kind.inputs().end(),
                                          [&](const PortDecl& decl) { return decl.name == input.port; });
           if (port == kind.inputs().end()) continue;
-          const Target target = references_.resolve(scope, input.from);
-          const bool outside = target.kind == Target::Kind::from_loop || target.kind == Target::Kind::given;
-          if (!outside && target.kind != Target::Kind::leaf) continue;
-          // What is not connected after all (an optional input of a subgraph) leaves no gap in a list.
           if (input.index.value_or(0) == 0) places = 0;
-          const std::string place = port->list ? list_slot(input.port, places++) : input.port;
-          edges_[slot.index][place] = {outside ? loop_input : target.leaf, target.port};
+          for (const auto& [entry, target] : references_.resolve_all(scope, input.from)) {
+            const bool outside = target.kind == Target::Kind::from_loop || target.kind == Target::Kind::given;
+            // What is not connected after all (an optional input of a subgraph) leaves no gap in a list.
+            if (!outside && target.kind != Target::Kind::leaf) continue;
+            const std::string place = port->list ? list_slot(input.port, places++) : input.port;
+            edges_[slot.index][place] = {outside ? loop_input : target.leaf, target.port};
+          }
         }
-      } else if (slot.kind == Scope::Slot::Kind::scope) {
-        const GraphFile& child = file_of(slot.index);
+      } else if (slot.kind == Scope::Slot::Kind::scope || slot.kind == Scope::Slot::Kind::map) {
+        const bool map = slot.kind == Scope::Slot::Kind::map;
+        const GraphFile& child = map ? *expansion_.maps[slot.index].body : file_of(slot.index);
         std::vector<Consumer> consumers;
         for (const GraphInput& input : child.inputs) {
           const bool usable = !input.broken && known_type(input.type);
           consumers.push_back(
               {input.name, {usable ? input.type : std::string(), 0, input.optional || !usable}, false});
         }
-        check_inputs(scope, file.nodes[i],
-                     "subgraph " + in_quotes(file.nodes[i].name) + " (" + child.source.file() + ")",
-                     consumers);
+        check_inputs(
+            scope, file.nodes[i],
+            (map ? "map " : "subgraph ") + in_quotes(file.nodes[i].name) + " (" + child.source.file() + ")",
+            consumers);
       }
     }
     for (const GraphOutput& output : file.outputs) {
@@ -215,6 +231,11 @@ class Connector {
                         in_quotes(written(file, output.from)) + " is a " + given->id + ", but " + state +
                             " begins as a " + input.type,
                         "a loop passes its outputs to its inputs: their types must agree");
+      } else if (given->list) {
+        findings_.error(
+            file, output.from.offset,
+            in_quotes(written(file, output.from)) + " is a list, but " + state + " is one artifact",
+            "let a node make one of them");
       } else if (given->optional) {
         findings_.error(
             file, output.from.offset,
@@ -247,6 +268,11 @@ class Connector {
                           ", but " + what + " of " + owner + " takes version " +
                           std::to_string(consumer.type.version),
                       "the two node libraries were built for different versions of the type");
+    } else if (given->list && !consumer.list) {
+      findings_.error(file, from.offset,
+                      source + " is a list, one " + given->id + " for each entry of a map, but " + what +
+                          " of " + owner + " takes one",
+                      "put the node into the body of the map, or connect a port that takes a list");
     } else if (given->optional && !consumer.type.optional) {
       findings_.error(file, from.offset,
                       source + " is optional, but " + what + " of " + owner + " is required");
@@ -312,7 +338,8 @@ class Connector {
       } else if (slot.kind == Scope::Slot::Kind::scope) {
         for (const GraphOutput& output : file_of(slot.index).outputs) {
           const std::optional<PortType> type = type_of(slot.index, &output.from);
-          if (type && type->id == wanted.type.id) return fits(file.nodes[i].name + "." + output.name);
+          if (type && type->id == wanted.type.id && (!type->list || wanted.list))
+            return fits(file.nodes[i].name + "." + output.name);
         }
       }
     }

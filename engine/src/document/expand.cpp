@@ -1,10 +1,14 @@
 #include "document/expand.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "base/quote.hpp"
+#include "document/file_patterns.hpp"
+#include "document/labels.hpp"
 #include "document/loop_body.hpp"
+#include "document/map_lists.hpp"
 #include "plugin/param_value.hpp"
 
 namespace ballflow {
@@ -55,7 +59,7 @@ class Expander {
                         "give it one: --set " + param.decl.name + "=<" + kind_name(param.decl.kind) + ">");
         params.push_back(std::nullopt);
       } else {
-        params.push_back(param.decl.default_value);
+        params.push_back(found_files(param.decl, param.decl.default_value, file, param.offset));
       }
     }
     instantiate(file, nowhere, nowhere, "", std::move(params));
@@ -66,18 +70,16 @@ class Expander {
  private:
   std::optional<Json> value_of(const PlacedSetting& setting, const ParamDecl& param) {
     Json value;
-    if (setting.value) {
-      value = *setting.value;
+    if (setting.value) {  // one value of a sweep
+      value =
+          is_list(param.kind) && !setting.value->is_array() ? Json::array({*setting.value}) : *setting.value;
     } else if (!is_utf8(setting.text)) {
       findings_.add(about_setting(setting, in_quotes(param.name) + " must be UTF-8",
                                   "rename the file, or set a link to it with a name in UTF-8"));
       return std::nullopt;
     } else if (!from_text(param, setting.text, value)) {
-      const char* wanted = param.kind == ParamKind::boolean   ? "true or false"
-                           : param.kind == ParamKind::integer ? "a whole number of 64 bits"
-                                                              : "a finite number";
       findings_.add(about_setting(
-          setting, in_quotes(param.name) + " must be " + wanted + ", is " + in_quotes(setting.text),
+          setting, in_quotes(param.name) + " must be " + wanted(param) + ", is " + in_quotes(setting.text),
           param_hint(param, value)));
       return std::nullopt;
     }
@@ -85,7 +87,40 @@ class Expander {
       findings_.add(about_setting(setting, in_quotes(param.name) + " " + why, param_hint(param, value)));
       return std::nullopt;
     }
-    return normalised(param, value);
+    return found_files(param, normalised(param, value), [&](const std::string& message, const char* hint) {
+      findings_.add(about_setting(setting, message, hint));
+    });
+  }
+
+  /// What a text that is no value of the parameter should have been.
+  static const char* wanted(const ParamDecl& param) {
+    if (param.kind == ParamKind::boolean) return "true or false";
+    if (param.kind == ParamKind::integer) return "a whole number of 64 bits";
+    return is_list(param.kind) ? "a,b,c or a JSON list" : "a finite number";
+  }
+
+  /// The value, with the files that match where it is a list of patterns; `complain` says what matches none.
+  template <class Complain>
+  static std::optional<Json> found_files(const ParamDecl& param, const Json& value, Complain complain) {
+    if (param.kind != ParamKind::files) return value;
+    std::set<std::string> files;
+    for (const Json& entry : value) {
+      const std::vector<std::string> matches = matching_files(entry.get_ref<const std::string&>());
+      if (matches.empty()) {
+        complain(
+            in_quotes(param.name) + ": no file matches " + in_quotes(entry.get_ref<const std::string&>()),
+            "patterns are relative to the current directory");
+        return std::nullopt;
+      }
+      files.insert(matches.begin(), matches.end());
+    }
+    return Json(files);
+  }
+  std::optional<Json> found_files(const ParamDecl& param, const Json& value, const GraphFile& file,
+                                  Offset offset) {
+    return found_files(param, value, [&](const std::string& message, const char* hint) {
+      findings_.error(file, offset, message, hint);
+    });
   }
 
   /// The value written for `param` at a node, or from a setting. Nothing when absent or wrong.
@@ -95,14 +130,15 @@ class Expander {
     if (const PlacedSetting* setting = settings_.find(path, param.name)) return value_of(*setting, param);
     given = written != nullptr;
     if (!given) return std::nullopt;
-    const std::optional<Json> value = written->value.evaluate(scope.params);
+    std::optional<Json> value = written->value.evaluate(scope.params);
     if (!value) return std::nullopt;
+    if (param.kind == ParamKind::string && value->is_array()) value = value->dump();  // ["hand","arm"]
     if (std::string why = param.refuse(*value); !why.empty()) {
       findings_.error(*scope.file, written->value.offset, in_quotes(param.name) + " " + why,
                       param_hint(param, *value));
       return std::nullopt;
     }
-    return normalised(param, *value);
+    return found_files(param, normalised(param, *value), *scope.file, written->value.offset);
   }
 
   void refuse_unknown_params(const GraphFile& file, const GraphNode& node, const std::string& owner,
@@ -125,7 +161,8 @@ class Expander {
   }
 
   std::size_t instantiate(const GraphFile& file, std::size_t parent, std::size_t parent_node,
-                          const std::string& path, std::vector<std::optional<Json>> params) {
+                          const std::string& path, std::vector<std::optional<Json>> params,
+                          std::optional<std::string> entry = {}) {
     const std::size_t index = expansion_.scopes.size();
     Scope& scope = expansion_.scopes.emplace_back();
     scope.file = &file;
@@ -133,6 +170,7 @@ class Expander {
     scope.parent_node = parent_node;
     scope.loop = loop_;
     scope.path = path;
+    scope.entry = std::move(entry);
     scope.params = std::move(params);
     scope.slots.resize(file.nodes.size());
     for (std::size_t i = 0; i < file.nodes.size(); ++i) {
@@ -206,6 +244,32 @@ class Expander {
     return slot;
   }
 
+  /// A subgraph for every entry of a list.
+  Scope::Slot add(std::size_t scope_index, std::size_t node_index, const std::string& path,
+                  const GraphNode::Map& written) {
+    const Scope& scope = expansion_.scopes[scope_index];
+    const GraphNode& node = scope.file->nodes[node_index];
+    const GraphFile* const body = include(scope, written.body, "\"map\"");
+    if (body == nullptr) return {};
+    std::vector<MapList> lists;
+    if (!read_map(*scope.file, scope.params, node, written, *body, lists, findings_)) return {};
+    const std::size_t map = expansion_.maps.size();
+    expansion_.maps.push_back({body});
+    const std::vector<std::string> labels =
+        labels_of(lists[0].entries, lists[0].param->kind == ParamKind::file);
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      count_instance(*scope.file, node.offset);
+      const std::string copy_path = path + "[" + labels[i] + "]";
+      Params params = params_of(*body, scope, node_index, copy_path, "map", "map body", {lists, i});
+      files_.enter(*body);
+      const std::size_t copy =
+          instantiate(*body, scope_index, node_index, copy_path, std::move(params), labels[i]);
+      files_.leave();
+      expansion_.maps[map].scopes.push_back(copy);
+    }
+    return {Scope::Slot::Kind::map, map};
+  }
+
   /// A node that has no kind was reported.
   Scope::Slot add(std::size_t, std::size_t, const std::string&, const std::monostate&) { return {}; }
 
@@ -221,9 +285,9 @@ class Expander {
     return nullptr;
   }
 
-  /// The parameters of a file that a node includes.
+  /// The parameters of a file that a node includes; a copy of a map has some from its lists.
   Params params_of(const GraphFile& file, const Scope& scope, std::size_t node_index, const std::string& path,
-                   const std::string& node_is, const std::string& file_is) {
+                   const std::string& node_is, const std::string& file_is, const MapEntry& entry = {}) {
     const GraphNode& node = scope.file->nodes[node_index];
     Params params;
     std::vector<std::string> known;
@@ -244,13 +308,18 @@ class Expander {
       }
       bool given = false;
       std::optional<Json> value = given_value(scope, node.param(param.decl.name), path, param.decl, given);
+      if (const MapList* list = given ? nullptr : entry.list_of(param.decl)) {
+        value = entry_value(*scope.file, *list, entry.index, findings_);
+        given = true;
+      }
       if (!given && param.decl.required) {
         findings_.error(*scope.file, node.offset,
                         node_is + " " + in_quotes(node.name) + " (" + file.source.file() +
                             ") needs a value for its parameter " + in_quotes(param.decl.name),
                         param_hint(param.decl, nullptr));
       }
-      if (!given && !param.decl.required) value = param.decl.default_value;
+      if (!given && !param.decl.required)
+        value = found_files(param.decl, param.decl.default_value, file, param.offset);
       params.push_back(std::move(value));
     }
     refuse_unknown_params(*scope.file, node, file_is + " " + in_quotes(file.source.file()), known);

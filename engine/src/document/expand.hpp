@@ -23,17 +23,18 @@ constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
 
 /// One inclusion of a graph file; scope 0 is the top graph.
 struct Scope {
-  /// What a node of the file became: an index into leaves or scopes.
+  /// What a node of the file became.
   struct Slot {
-    enum class Kind { broken, leaf, scope };
+    enum class Kind { broken, leaf, scope, map };
     Kind kind = Kind::broken;
-    std::size_t index = 0;
+    std::size_t index = 0;  // into leaves, scopes or maps
   };
   const GraphFile* file = nullptr;
   std::size_t parent = nowhere;             // scope
   std::size_t parent_node = nowhere;        // node of the parent's file
   std::size_t loop = nowhere;               // the innermost loop around it
-  std::string path;                         // "prune", empty at the top
+  std::string path;                         // "prune", "links[hand]", empty at the top
+  std::optional<std::string> entry;         // of a copy of a map: "hand"
   std::vector<std::optional<Json>> params;  // by GraphFile::params; nothing where an error was reported
   std::vector<Slot> slots;                  // by GraphFile::nodes
 };
@@ -53,10 +54,17 @@ struct LoopBody {
   std::size_t scope = nowhere;
 };
 
+/// A map: a scope for each entry of its list, in order.
+struct MapCopies {
+  const GraphFile* body = nullptr;
+  std::vector<std::size_t> scopes = {};
+};
+
 struct Expansion {
   std::deque<Scope> scopes;
   std::vector<Leaf> leaves;
   std::vector<LoopBody> loops;
+  std::vector<MapCopies> maps;
   bool abandoned = false;  // a limit was reached; the rest is missing
 
   const GraphFile& top() const { return *scopes[0].file; }

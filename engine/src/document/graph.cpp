@@ -116,6 +116,20 @@ std::string base_path(const std::string& path) {
   return end == std::string::npos ? path : path.substr(end + 2);
 }
 
+std::string without_entries(const std::string& path) {
+  std::string plain;
+  for (std::size_t at = 0; at < path.size();) {
+    const bool entry = path[at] == '[' && at > 0 && path[at - 1] != '/';
+    const std::size_t close = entry ? path.find(']', at) : std::string::npos;
+    if (close == std::string::npos) {
+      plain += path[at++];
+    } else {
+      at = close + 1;
+    }
+  }
+  return plain;
+}
+
 Dag parse_graph(const std::string& text, const std::string& file, const Registry& registry,
                 const std::vector<Setting>& settings, const SweepOptions& options,
                 const std::map<std::string, ArtifactPtr>& given, const FindArtifact& find) {

@@ -80,11 +80,17 @@ struct GraphNode {
 
     const Param* param(const std::string& name) const;
   };
+  struct Map {
+    Template body;                 // a file
+    std::vector<Param> over = {};  // parameters of the body, each with a list; the first one names the copies
+    std::string index = {};        // the parameter of the body that gets the place in the lists; empty: none
+    Offset index_offset = 0;
+  };
   std::string name;
   Offset offset = 0;
-  std::variant<std::monostate, Declared, Subgraph, Loop> kind;  // nothing when it is broken
-  std::vector<Input> inputs;                                    // by port
-  std::vector<Param> params;                                    // by name; of a loop those of its body
+  std::variant<std::monostate, Declared, Subgraph, Loop, Map> kind;  // nothing when it is broken
+  std::vector<Input> inputs;                                         // by port
+  std::vector<Param> params;  // by name; of a loop or map those of its body
   bool broken = false;
   bool used = false;
 

@@ -175,11 +175,11 @@ class Reader {
       node.broken = true;
       return;
     }
-    const bool keys_known = known_keys(
-        member.value, "a node",
-        {"type", "graph", "loop", "inputs", "params", "until", "max_iterations", "at_limit", "doc"});
+    const bool keys_known = known_keys(member.value, "a node",
+                                       {"type", "graph", "loop", "map", "over", "index", "inputs", "params",
+                                        "until", "max_iterations", "at_limit", "doc"});
     const char* kind = nullptr;
-    for (const char* const key : {"type", "graph", "loop"}) {
+    for (const char* const key : {"type", "graph", "loop", "map"}) {
       const Value* value = member.value.find(key);
       if (value == nullptr) continue;
       if (kind != nullptr) {
@@ -193,9 +193,10 @@ class Reader {
     if (kind == nullptr) {
       // With an unknown key the missing one is probably that one, which was reported.
       if (keys_known) {
-        error(node.offset, "node " + in_quotes(node.name) + " has no \"type\", \"graph\" or \"loop\"",
-              "\"type\" names a node type, \"graph\" the file of a subgraph, \"loop\" that of the body of a "
-              "loop");
+        error(
+            node.offset, "node " + in_quotes(node.name) + " has no \"type\", \"graph\", \"loop\" or \"map\"",
+            "\"type\" names a node type, \"graph\" the file of a subgraph, \"loop\" and \"map\" that of the "
+            "body of a loop or map");
       }
       node.broken = true;
     }
@@ -203,7 +204,13 @@ class Reader {
     if (is_loop && member.value.find("until") == nullptr)
       error(node.offset, "loop " + in_quotes(node.name) + " has no \"until\"",
             "\"until\": \"state.field == 0\", a field of the summary of a state");
-    std::vector<GraphNode::Param> loop_params;
+    const bool is_map = member.value.find("map") != nullptr;
+    if (is_map && member.value.find("over") == nullptr)
+      error(node.offset, "map " + in_quotes(node.name) + " has no \"over\"",
+            "\"over\": { \"parameter\": \"${list}\" }, a parameter of the body and the list it goes through");
+    std::vector<GraphNode::Param> loop_params, over;
+    std::string index;
+    Offset index_offset = 0;
     for (const Member& field : member.value.members) {
       if (field.key == "doc") text(field, ignored_);
       if (field.key == "until" || field.key == "max_iterations" || field.key == "at_limit") {
@@ -215,7 +222,23 @@ class Reader {
                 "\"loop\": \"body.json\" makes a node a loop");
         }
       }
-      if (field.key == "type" || field.key == "graph" || field.key == "loop") {
+      if (field.key == "index" && !is_map) {
+        error(field.offset, "\"index\" is for maps, node " + in_quotes(node.name) + " is none",
+              "\"map\": \"body.json\" makes a node a map");
+      } else if (field.key == "index" && text(field, index)) {
+        index_offset = field.value.offset;
+      }
+      if (field.key == "over" && !is_map) {
+        error(field.offset, "\"over\" is for maps, node " + in_quotes(node.name) + " is none",
+              "\"map\": \"body.json\" makes a node a map");
+      } else if (field.key == "over" && object(field)) {
+        for (const Member& item : field.value.members)
+          over.push_back({item.key, item.offset, read_template(file_, findings_, item.value)});
+        if (over.empty())
+          error(field.value.offset, "map " + in_quotes(node.name) + " goes over nothing",
+                "\"over\": { \"parameter\": \"${list}\" }");
+      }
+      if (field.key == "type" || field.key == "graph" || field.key == "loop" || field.key == "map") {
         std::string written;
         if (!text(field, written)) {
           node.broken = true;
@@ -223,8 +246,10 @@ class Reader {
           node.kind = GraphNode::Declared{std::move(written), field.value.offset};
         } else if (field.key == "graph") {
           node.kind = GraphNode::Subgraph{read_template(file_, findings_, field.value)};
-        } else {
+        } else if (field.key == "loop") {
           node.kind = GraphNode::Loop{read_template(file_, findings_, field.value), {}};
+        } else {
+          node.kind = GraphNode::Map{read_template(file_, findings_, field.value), {}};
         }
       }
       if (field.key == "inputs" && object(field)) {
@@ -251,6 +276,12 @@ class Reader {
     std::sort(node.params.begin(), node.params.end(), by_name);
     std::sort(loop_params.begin(), loop_params.end(), by_name);
     if (auto* loop = std::get_if<GraphNode::Loop>(&node.kind)) loop->params = std::move(loop_params);
+    if (auto* map = std::get_if<GraphNode::Map>(&node.kind)) {
+      map->over = std::move(over);
+      map->index = std::move(index);
+      map->index_offset = index_offset;
+      if (map->over.empty()) node.broken = true;  // reported
+    }
     if (node.broken) node.kind = {};
   }
 

@@ -11,6 +11,9 @@ namespace {
 using json_text::Member;
 using json_text::Value;
 
+const char* const kinds_hint =
+    "kinds are number, integer, boolean, string, choice, file, list, files and artifact";
+
 class ParamReader {
  public:
   ParamReader(const GraphFile& file, Findings& findings) : file_(file), findings_(findings) {}
@@ -34,19 +37,18 @@ class ParamReader {
            good;
     const Value* kind = member.value.find("kind");
     if (kind == nullptr) {
-      error(member.offset, "parameter " + in_quotes(member.key) + " has no \"kind\"",
-            "kinds are number, integer, boolean, string, choice, file and artifact");
+      error(member.offset, "parameter " + in_quotes(member.key) + " has no \"kind\"", kinds_hint);
       return false;
     }
     if (!kind->is_string() || !kind_from_name(kind->string(), decl.kind)) {
       std::string hint = kind->is_string()
                              ? did_you_mean(kind->string(), {"number", "integer", "boolean", "string",
-                                                             "choice", "file", "artifact"})
+                                                             "choice", "file", "list", "files", "artifact"})
                              : "";
       error(kind->offset,
             kind->is_string() ? "unknown kind " + in_quotes(kind->string())
                               : "\"kind\" must be a text, " + described(kind->scalar),
-            hint.empty() ? "kinds are number, integer, boolean, string, choice, file and artifact" : hint);
+            hint.empty() ? kinds_hint : hint);
       return false;
     }
     const Value* default_value = nullptr;
@@ -73,12 +75,13 @@ class ParamReader {
     }
     decl.required = default_value == nullptr;
     if (default_value == nullptr || !good) return good;
-    if (std::string why = decl.refuse(default_value->scalar); !why.empty()) {
+    const Json given = is_list(decl.kind) ? default_value->json() : default_value->scalar;
+    if (std::string why = decl.refuse(given); !why.empty()) {
       error(default_value->offset, "the default of " + in_quotes(member.key) + " " + why,
-            choice_hint(decl, default_value->scalar));
+            choice_hint(decl, given));
       return false;
     }
-    decl.default_value = normalised(decl, default_value->scalar);
+    decl.default_value = normalised(decl, given);
     return true;
   }
 

@@ -1,5 +1,6 @@
 #include "document/references.hpp"
 
+#include <optional>
 #include <utility>
 
 #include "ballflow/text.hpp"
@@ -24,6 +25,7 @@ Target References::resolve(std::size_t scope, const Reference& first) {
   std::vector<Memo*> visited;
   std::vector<std::string> trail;
   Target target;
+  std::optional<std::size_t> single;  // how many were visited before the last input of a subgraph, if any
   while (true) {
     if (reference->kind == Reference::Kind::broken) break;
     const Scope& here = expansion_.scopes[scope];
@@ -46,6 +48,7 @@ Target References::resolve(std::size_t scope, const Reference& first) {
       }
       reference = &binding->from;
       scope = here.parent;
+      single = visited.size();
       continue;
     }
     const Scope::Slot slot = here.slots[reference->index];
@@ -54,6 +57,11 @@ Target References::resolve(std::size_t scope, const Reference& first) {
       if (expansion_.leaves[slot.index].kind.output(reference->port) != nullptr) {
         target = {Target::Kind::leaf, slot.index, reference->port};
       }
+      break;
+    }
+    if (slot.kind == Scope::Slot::Kind::map) {
+      if (expansion_.maps[slot.index].body->output_index.contains(reference->port))
+        target = {Target::Kind::list, slot.index, reference->port};
       break;
     }
     const auto output = expansion_.file_of(slot.index).output_index.find(reference->port);
@@ -81,14 +89,36 @@ Target References::resolve(std::size_t scope, const Reference& first) {
     scope = slot.index;
     reference = &expansion_.file_of(scope).outputs[output->second].from;
   }
-  for (Memo* memo : visited) *memo = {Memo::State::done, target};
-  return target;
+  // An input of a subgraph takes one artifact: what is before it gets none of a list.
+  const bool torn = single && target.kind == Target::Kind::list;
+  for (std::size_t i = 0; i < visited.size(); ++i)
+    *visited[i] = {Memo::State::done, torn && i < *single ? Target() : target};
+  return torn ? Target() : target;
+}
+
+std::vector<ListedTarget> References::resolve_all(std::size_t scope, const Reference& reference) {
+  std::vector<ListedTarget> all;
+  take_apart(resolve(scope, reference), "", all);
+  return all;
+}
+
+/// As deep as subgraphs are nested: a list comes from the inside of the copies alone.
+void References::take_apart(const Target& target, const std::string& entry, std::vector<ListedTarget>& all) {
+  if (target.kind != Target::Kind::list) {
+    all.push_back({entry, target});
+    return;
+  }
+  for (const std::size_t copy : expansion_.maps[target.leaf].scopes) {
+    const std::size_t output = expansion_.file_of(copy).output_index.at(target.port);
+    take_apart(resolve_output(copy, output),
+               entry + (entry.empty() ? "" : "/") + *expansion_.scopes[copy].entry, all);
+  }
 }
 
 Target References::resolve_output(std::size_t scope, std::size_t output) {
   Reference reference;
   reference.kind = Reference::Kind::node;
-  if (scope == 0 || expansion_.is_body(scope))
+  if (scope == 0 || expansion_.is_body(scope) || expansion_.scopes[scope].entry)
     return resolve(scope, expansion_.file_of(scope).outputs[output].from);
   reference.index = expansion_.scopes[scope].parent_node;
   reference.port = expansion_.file_of(scope).outputs[output].name;

@@ -44,7 +44,8 @@ std::set<std::size_t> nodes_named(const Dag& dag, const std::string& path) {
     const auto is_or_below = [&path](const std::string& one) {
       return one == path || one.rfind(path + "/", 0) == 0;
     };
-    if (is_or_below(node) || is_or_below(base_path(node))) found.insert(i);
+    const std::string base = base_path(node);
+    if (is_or_below(node) || is_or_below(base) || is_or_below(without_entries(base))) found.insert(i);
   }
   for (const Variant& variant : dag.variants) {
     if (variant.name == path) found.insert(variant.nodes.begin(), variant.nodes.end());

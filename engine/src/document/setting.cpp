@@ -33,7 +33,16 @@ Settings::Settings(const std::vector<const PlacedSetting*>& settings)
 
 const PlacedSetting* Settings::find(const std::string& path, const std::string& param) {
   if (all_.empty()) return nullptr;
-  const auto found = by_name_.find(path + "." + param);
+  // Entries of lists may have dots in them, which stand for slashes in the name of a setting.
+  const auto known = [&](const std::string& place) {
+    std::string name = place + "/" + param;
+    return by_name_.find(setting_target(name));
+  };
+  auto found = path.empty() ? by_name_.find("." + param) : known(path);
+  if (found == by_name_.end()) {
+    const std::string all_copies = without_entries(path);
+    if (all_copies != path) found = known(all_copies);
+  }
   if (found == by_name_.end()) return nullptr;
   for (const std::size_t i : found->second) used_[i] = true;
   return all_[found->second.back()];

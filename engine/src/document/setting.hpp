@@ -32,7 +32,8 @@ class Settings {
   explicit Settings(const std::vector<const PlacedSetting*>& settings);
 
   /// The setting of a parameter of the node or subgraph `path` (empty: of the top graph), else null. Of
-  /// several the last counts.
+  /// several the last counts; one of all copies of a map ("links/enclose") less than one of this copy
+  /// ("links[hand]/enclose").
   const PlacedSetting* find(const std::string& path, const std::string& param);
 
   /// Those that no parameter was looked up for.

@@ -1,60 +1,20 @@
 #include "document/sweep.hpp"
 
-#include <glob.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <set>
 
 #include "base/quote.hpp"
+#include "document/file_patterns.hpp"
+#include "document/labels.hpp"
 
 namespace ballflow {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t longest_label = 60;  // bytes
-
-/// Text that can be part of a path of a node and of the name of a folder.
-std::string label_text(const std::string& text) {
-  std::string label;
-  for (const char c : printable(text)) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                       (c & 0x80) != 0 || std::string_view("._-+%@:").find(c) != std::string_view::npos;
-    label += plain ? c : '_';
-  }
-  return cut(label, longest_label);
-}
-
 std::string text_of(const PlacedSetting& setting) {
   return setting.value ? plain_text(*setting.value) : setting.text;
-}
-
-/// Labels of the values of an axis. Of paths the file names, where those differ.
-std::vector<std::string> labels_of(const Sweep::Axis& axis, bool files) {
-  std::vector<std::string> labels;
-  std::set<std::string> names;
-  for (const PlacedSetting& setting : axis.values) {
-    const std::string text = text_of(setting);
-    labels.push_back(label_text(files ? fs::path(text).filename().string() : text));
-    names.insert(labels.back());
-  }
-  if (names.size() == labels.size()) return labels;
-  names.clear();
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    const std::string label = label_text(text_of(axis.values[i]));
-    labels[i] = label;
-    for (int number = 2; !names.insert(labels[i]).second; ++number)
-      labels[i] = label + "~" + std::to_string(number);
-  }
-  return labels;
-}
-
-/// Not "a.ply", and not "shape:torus?n=4000", which no file is named like.
-bool is_pattern(const std::string& text) {
-  const std::size_t colon = text.find(':');
-  return text.find_first_of("*?[") != std::string::npos &&
-         (colon == std::string::npos || !is_identifier(text.substr(0, colon)));
 }
 
 class SweepPlanner {
@@ -73,7 +33,9 @@ class SweepPlanner {
     refuse_fixed();
     for (std::size_t i = 0; i < sweep_.axes.size(); ++i) {
       refuse_doubles(sweep_.axes[i]);
-      sweep_.axes[i].labels = labels_of(sweep_.axes[i], i < inputs_);
+      std::vector<std::string> texts;
+      for (const PlacedSetting& value : sweep_.axes[i].values) texts.push_back(text_of(value));
+      sweep_.axes[i].labels = labels_of(texts, i < inputs_);
     }
     if (good_) combine();
     if (sweep_.variants.empty()) sweep_.variants.emplace_back(sweep_.axes.size(), 0);
@@ -184,21 +146,7 @@ class SweepPlanner {
     std::map<std::string, PlacedSetting> found;  // each once, sorted
     for (const PlacedSetting& pattern : patterns) {
       const std::string text = text_of(pattern);
-      std::vector<std::string> paths;
-      std::error_code unknown;
-      // What is there under just this name is meant: "scan [1].off".
-      if (!is_pattern(text) || fs::is_regular_file(text, unknown)) {
-        paths.push_back(text);
-      } else {
-        glob_t matches{};
-        if (::glob(text.c_str(), 0, nullptr, &matches) == 0) {
-          std::error_code ignored;
-          for (std::size_t i = 0; i < matches.gl_pathc; ++i) {
-            if (!fs::is_directory(matches.gl_pathv[i], ignored)) paths.emplace_back(matches.gl_pathv[i]);
-          }
-        }
-        ::globfree(&matches);
-      }
+      const std::vector<std::string> paths = matching_files(text);
       if (paths.empty()) {
         error(pattern, "no file matches " + in_quotes(text),
               "patterns are relative to the current directory, " + in_quotes(fs::current_path().string()));
@@ -401,14 +349,6 @@ class SweepPlanner {
 };
 
 }  // namespace
-
-std::string cut(const std::string& text, std::size_t longest) {
-  if (text.size() <= longest) return text;
-  const std::string mark = "~" + sha256(text).hex().substr(0, 8);
-  std::size_t end = longest - mark.size();
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
-  return text.substr(0, end) + mark;
-}
 
 std::string Sweep::label_of(std::size_t axis, std::uint32_t value) const {
   std::string name = axes[axis].name;

@@ -32,9 +32,6 @@ struct Sweep {
   std::string label_of(std::size_t axis, std::uint32_t value) const;
 };
 
-/// Cuts a text to so many bytes and marks it, so that different texts stay different.
-std::string cut(const std::string& text, std::size_t longest);
-
 /// The variants of a graph; none when nothing is swept. What is wrong becomes findings; there is at least
 /// one variant even then, so that the rest of the graph can be checked with it.
 std::optional<Sweep> plan_sweep(const GraphFile& top, const std::vector<PlacedSetting>& sets,

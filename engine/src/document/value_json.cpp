@@ -18,6 +18,7 @@ class ValueReader {
   Template read_template(const Value& value) {
     Template result;
     result.offset = value.offset;
+    if (value.is_array()) return read_list(value, std::move(result));
     if (!value.is_string()) {
       result.fixed = value.scalar;
       return result;
@@ -49,6 +50,11 @@ class ValueReader {
             error(value.offset, "parameter " + in_quotes(name) + " is an artifact, which is no value",
                   "connect it to an input of a node: \"${" + name + "}\"");
             result.broken = true;
+          } else if (is_list(file_.params[found->second].decl.kind) &&
+                     (at != 0 || close + 1 != source.size())) {
+            error(value.offset, "parameter " + in_quotes(name) + " is a list, which is no part of a text",
+                  "let it stand alone: \"${" + name + "}\"");
+            result.broken = true;
           }
           if (!plain.empty()) result.parts.push_back({std::move(plain), std::nullopt});
           plain.clear();
@@ -64,6 +70,18 @@ class ValueReader {
     } else if (!plain.empty()) {
       result.parts.push_back({std::move(plain), std::nullopt});
     }
+    return result;
+  }
+
+  /// A list as it stands; parameters inside are not looked for.
+  Template read_list(const Value& value, Template result) {
+    for (const json_text::Member& entry : value.members) {
+      if (!entry.value.is_string() || entry.value.string().find("${") == std::string::npos) continue;
+      error(entry.value.offset, "a list cannot have parameters in it",
+            "declare the whole list as a parameter of kind list");
+      result.broken = true;
+    }
+    result.fixed = value.json();
     return result;
   }
 

@@ -4,6 +4,8 @@
 #include <string_view>
 #include <utility>
 
+#include "document/labels.hpp"
+
 namespace ballflow {
 namespace {
 

@@ -134,6 +134,7 @@ ParamDecl parse_param(const Json& json, const std::string& where) {
   fields.rename(where + " " + in_quotes(param.name));
   const std::string kind = fields.text("kind");
   if (!kind_from_name(kind, param.kind)) fields.fail_field("kind", in_quotes(kind) + " is unknown");
+  if (is_list(param.kind)) fields.fail_field("kind", "is " + kind + ": lists are parameters of graphs");
   if (param.kind == ParamKind::artifact)
     fields.fail_field("kind", "is artifact: a node takes artifacts as inputs");
   param.doc = fields.text("doc");
@@ -232,7 +233,8 @@ NodeDeclaration parse_node_declaration(std::string_view text) {
   NodeDeclaration node;
   node.id = fields.type_id("id");
   fields.rename("node " + in_quotes(node.id));
-  const std::set<std::string> reserved = {"artifact", "graph", "loop", "node", "parameter", "subgraph"};
+  const std::set<std::string> reserved = {"artifact", "graph",     "loop",    "map",
+                                          "node",     "parameter", "subgraph"};
   if (reserved.contains(node.id)) fields.fail_field("id", "is reserved; put a namespace in front of it");
   node.version = fields.version("version");
   node.summary = fields.text("summary");

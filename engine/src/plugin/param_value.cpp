@@ -1,5 +1,6 @@
 #include "plugin/param_value.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -55,6 +56,22 @@ std::string ParamDecl::refuse(const Json& value) const {
       if (required && value.get_ref<const std::string&>().empty())
         return "must be the path of a file, is empty";
       return {};
+    case ParamKind::list:
+    case ParamKind::files: {
+      const bool files = kind == ParamKind::files;
+      if (!value.is_array())
+        return std::string("must be a list of ") + (files ? "files, " : "texts, ") + described(value);
+      for (std::size_t i = 0; i < value.size(); ++i) {
+        const Json& entry = value[i];
+        if (files ? !entry.is_string() || entry.get_ref<const std::string&>().empty() ||
+                        entry.get_ref<const std::string&>().find('\0') != std::string::npos
+                  : entry.is_structured() || entry.is_null()) {
+          return std::string("must be a list of ") + (files ? "files, " : "texts, ") + "its entry " +
+                 std::to_string(i + 1) + " " + described(entry);
+        }
+      }
+      return {};
+    }
     case ParamKind::artifact:
       if (value.is_string() && !value.get_ref<const std::string&>().empty() &&
           value.get_ref<const std::string&>().find('\0') == std::string::npos) {
@@ -71,8 +88,32 @@ Json normalised(const ParamDecl& param, const Json& value) {
     return value.is_number_float() ? static_cast<std::int64_t>(value.get<double>())
                                    : value.get<std::int64_t>();
   }
+  if (param.kind == ParamKind::list) {
+    Json texts = Json::array();
+    for (const Json& entry : value) texts.push_back(plain_text(entry));
+    return texts;
+  }
   return value;
 }
+
+namespace {
+
+/// "a,b,c", or a JSON list, whose entries may have commas.
+bool list_from_text(const std::string& text, Json& value) {
+  if (text.starts_with("[")) {
+    value = Json::parse(text, nullptr, false);
+    return value.is_array();
+  }
+  value = Json::array();
+  for (std::size_t begin = 0; begin <= text.size() && !text.empty();) {
+    const std::size_t comma = std::min(text.find(',', begin), text.size());
+    value.push_back(text.substr(begin, comma - begin));
+    begin = comma + 1;
+  }
+  return true;
+}
+
+}  // namespace
 
 bool from_text(const ParamDecl& param, const std::string& text, Json& value) {
   const char* end = text.data() + text.size();
@@ -95,6 +136,9 @@ bool from_text(const ParamDecl& param, const std::string& text, Json& value) {
       if (text != "true" && text != "false") return false;
       value = text == "true";
       return true;
+    case ParamKind::list:
+    case ParamKind::files:
+      return list_from_text(text, value);
     default:
       value = text;
       return true;
@@ -102,8 +146,8 @@ bool from_text(const ParamDecl& param, const std::string& text, Json& value) {
 }
 
 namespace {
-constexpr std::array<const char*, 7> kind_names = {"number", "integer", "boolean", "string",
-                                                   "choice", "file",    "artifact"};
+constexpr std::array<const char*, 9> kind_names = {"number", "integer", "boolean", "string",  "choice",
+                                                   "file",   "list",    "files",   "artifact"};
 }
 
 const char* kind_name(ParamKind kind) { return kind_names[static_cast<std::size_t>(kind)]; }

@@ -43,7 +43,8 @@ void Runner::Impl::check_files(std::size_t i) {
   const DagNode& node = dag_.nodes[i];
   const std::optional<std::string> file = file_read_by(node);
   if (!file || make_key(node).key == states_[i]->key) return;
-  throw Error(ExitCode::node_failed, *file + " changed while the run was reading it",
+  const char* const or_others = files_named_by(node).empty() ? "" : ", or a file that it names,";
+  throw Error(ExitCode::node_failed, *file + or_others + " changed while the run was reading it",
               "wait until its writer is done, then run again");
 }
 

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <cctype>
-#include <filesystem>
 
 #include "base/canonical_json.hpp"
+#include "run/named_files.hpp"
 
 namespace ballflow {
 namespace {
@@ -70,16 +69,6 @@ void add_value(std::string& bytes, const Json& value) {
   }
 }
 
-/// "scan.OFF.gz" -> "off.gz": readers choose by it, so it belongs to the key.
-std::string file_format(const std::string& path) {
-  const std::filesystem::path name = std::filesystem::path(path).filename();
-  std::string format = name.extension().string();
-  if (format == ".gz" || format == ".GZ") format = name.stem().extension().string() + format;
-  std::transform(format.begin(), format.end(), format.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return format.empty() ? format : format.substr(1);
-}
-
 Json key_value(const ParamDecl& decl, const Json& value, Store& store) {
   switch (decl.kind) {
     case ParamKind::number:
@@ -117,6 +106,7 @@ Json node_manifest(const DagNode& node, Store& store) {
     if (param.hashed) params[param.name] = key_value(param, node.params.at(param.name), store);
   }
   manifest["params"] = std::move(params);
+  if (Json files = named_files_manifest(node, store); files.is_object()) manifest["files"] = std::move(files);
   if (const std::string& file = library_file(node.kind); !file.empty()) manifest["library_file"] = file;
   if (const Loop* loop = node.kind.loop()) manifest["body"] = body_manifest(loop->body, store);
   return manifest;
@@ -162,6 +152,7 @@ ActionKey action_key(const DagNode& node, const std::map<std::string, OutputEntr
     if (param.hashed) params.emplace_back(param.name, key_value(param, node.params.at(param.name), store));
   }
   const Loop* const loop = kind.loop();
+  const Json files = named_files_manifest(node, store);
   const Json body = loop != nullptr ? body_manifest(loop->body, store) : Json();
 
   std::string text;
@@ -201,6 +192,10 @@ ActionKey action_key(const DagNode& node, const std::map<std::string, OutputEntr
     add_member("body");
     text += body.dump();
   }
+  if (files.is_object()) {
+    add_member("files");
+    text += files.dump();
+  }
   add_member("seed");
   if (kind.uses_seed()) {
     write_number(seed, text);
@@ -237,10 +232,14 @@ ActionKey action_key(const DagNode& node, const std::map<std::string, OutputEntr
     add_tag(bytes, 'o');
     add_u64(bytes, members);
   };
-  add_object(7 + (loop != nullptr ? 1 : 0) + (file.empty() ? 0 : 1));
+  add_object(7 + (loop != nullptr ? 1 : 0) + (file.empty() ? 0 : 1) + (files.is_object() ? 1 : 0));
   if (loop != nullptr) {
     add_text(bytes, "body");
     add_value(bytes, body);
+  }
+  if (files.is_object()) {
+    add_text(bytes, "files");
+    add_value(bytes, files);
   }
   add_text(bytes, "format");
   add_integer(key_format);

@@ -10,7 +10,7 @@
 #include "ballflow/artifact_view.hpp"
 #include "ballflow/error.hpp"
 #include "ballflow/plugin.h"
-#include "base/canonical_json.hpp"
+#include "run/named_files.hpp"
 
 namespace ballflow {
 namespace {
@@ -45,13 +45,7 @@ class Host {
         take(port.name);
       }
     }
-    for (const auto& [name, value] : request.node->params) {
-      params_ += params_.empty() ? '{' : ',';
-      write_string(name, params_);
-      params_ += ':';
-      write_value(value, params_);
-    }
-    params_ += params_.empty() ? "{}" : "}";
+    params_ = params_text(*request.node);
   }
   Host(const Host&) = delete;
   Host& operator=(const Host&) = delete;

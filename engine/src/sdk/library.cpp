@@ -39,16 +39,26 @@ void check_type(void* self, const bf_artifact* artifact, void* context,
   }
 }
 
+void list_files(void* self, bf_bytes params, void* context,
+                void (*found)(void*, bf_bytes, bf_bytes)) noexcept {
+  for (const NamedFile& file : static_cast<const NodeEntry*>(self)->decl->files(params))
+    found(context, bytes(file.name), bytes(file.path));
+}
+
 }  // namespace
 
 const bf_node* keep_node(const AnyNodeDecl& decl) {
   auto kept = std::make_unique<NodeEntry>();
   kept->decl = &decl;
   kept->json = decl.json();
-  kept->entry = {sizeof(bf_node), 0, bytes(kept->json), kept.get(),
+  kept->entry = {sizeof(bf_node),
+                 0,
+                 bytes(kept->json),
+                 kept.get(),
                  [](void* self, const bf_run* run) noexcept -> int {
                    return static_cast<const NodeEntry*>(self)->decl->run(*run);
-                 }};
+                 },
+                 decl.names_files() ? &list_files : nullptr};
   return &kept.release()->entry;
 }
 

@@ -268,9 +268,9 @@ std::string AnyNodeDecl::json() const {
   return json + "}";
 }
 
-void AnyNodeDecl::fill(void* node, const bf_run& raw) const {
+void AnyNodeDecl::fill_params(void* node, bf_bytes text) const {
   char* const begin = static_cast<char*>(node);
-  const auto params = read_params(view(raw.params));
+  const auto params = read_params(view(text));
   for (const Param& param : params_) {
     const auto found = params.find(param.name);
     if (found == params.end())
@@ -278,6 +278,11 @@ void AnyNodeDecl::fill(void* node, const bf_run& raw) const {
                       "this is a bug of the program that runs the node");
     set_param(begin + param.offset, param, found->second);
   }
+}
+
+void AnyNodeDecl::fill(void* node, const bf_run& raw) const {
+  char* const begin = static_cast<char*>(node);
+  fill_params(node, raw.params);
   for (const Port& port : inputs_) {
     const std::uint64_t count = raw.input_count(raw.host, bytes(port.name));
     if (count > 1 && !port.list)
@@ -307,6 +312,16 @@ void AnyNodeDecl::hand_over(const void* node, const bf_run& raw) const {
     if (raw.output(raw.host, bytes(port.name), arrays.arrays().data(), arrays.arrays().size(), bytes(text)) !=
         0)
       throw RunCancelled();  // the engine has recorded why it refused the output
+  }
+}
+
+std::vector<NamedFile> AnyNodeDecl::files(bf_bytes params) const noexcept {
+  try {
+    const std::unique_ptr<void, void (*)(void*)> node(operations_.make(), operations_.destroy);
+    fill_params(node.get(), params);
+    return operations_.files(node.get());
+  } catch (...) {
+    return {};
   }
 }
 

@@ -28,6 +28,7 @@ std::string spoken(const Field& field) {
   if (field.path == "node") return "node type";
   if (field.path == "format") return "key format";
   if (field.path == "library_file") return "file of the node library";
+  if (const auto file = behind(field.path, "files.")) return "file " + *file;
   if (const auto library = behind(field.path, "libraries.")) return "library " + *library;
   const auto port = [](const std::string& kind, const std::string& path) {
     const std::size_t dot = path.rfind('.');

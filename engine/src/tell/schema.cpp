@@ -47,7 +47,9 @@ Json param_schema(const ParamDecl& param) {
       break;
     case ParamKind::string:
     case ParamKind::file:
-    case ParamKind::artifact:  // of graphs only
+    case ParamKind::list:  // of graphs only, like those below
+    case ParamKind::files:
+    case ParamKind::artifact:
       // A text may contain substitutions anyway.
       schema["type"] = "string";
       if (param.kind == ParamKind::file && param.required) schema["minLength"] = 1;
@@ -126,7 +128,7 @@ Json any_node(const Registry& registry, Json& definitions) {
         {"params",
          {{"type", "object"},
           {"description", "values for the parameters of the subgraph"},
-          {"additionalProperties", {{"type", {"number", "boolean", "string"}}}}}}}}};
+          {"additionalProperties", {{"type", {"number", "boolean", "string", "array"}}}}}}}}};
   rules.push_back({{"if", {{"required", {"graph"}}}}, {"then", {{"$ref", "#/definitions/subgraph"}}}});
   definitions["loop"] = {
       {"title", "loop"},
@@ -150,48 +152,94 @@ Json any_node(const Registry& registry, Json& definitions) {
         {"params",
          {{"type", "object"},
           {"description", "values for the parameters of the body"},
-          {"additionalProperties", {{"type", {"number", "boolean", "string"}}}}}}}}};
+          {"additionalProperties", {{"type", {"number", "boolean", "string", "array"}}}}}}}}};
   for (const ParamDecl& param : loop_params())
     definitions["loop"]["properties"][param.name] = param_schema(param);
   rules.push_back({{"if", {{"required", {"loop"}}}}, {"then", {{"$ref", "#/definitions/loop"}}}});
+  definitions["map"] = {
+      {"title", "map"},
+      {"description",
+       "The graph of another file, once for every entry of a list; its outputs are lists in that order."},
+      {"type", "object"},
+      {"additionalProperties", false},
+      {"required", {"map", "over"}},
+      {"properties",
+       {{"map",
+         {{"type", "string"},
+          {"minLength", 1},
+          {"description", "path of the file of the body, relative to this file"}}},
+        {"over",
+         {{"type", "object"},
+          {"minProperties", 1},
+          {"description",
+           "parameters of the body and the lists that they go through; the first names the copies"},
+          {"additionalProperties",
+           {{"anyOf",
+             {{{"type", "string"}, {"pattern", std::string("^") + substitution + "$"}},
+              {{"type", "array"},
+               {"minItems", 1},
+               {"items", {{"type", {"number", "boolean", "string"}}}}}}}}}}},
+        {"index",
+         {{"type", "string"},
+          {"pattern", identifier},
+          {"description", "the parameter of the body that gets the place of its entry, from 0 on"}}},
+        {"doc", {{"type", "string"}}},
+        {"inputs",
+         {{"type", "object"},
+          {"description", "the same for every entry"},
+          {"additionalProperties", edge_schema("edge to an input of the body")}}},
+        {"params",
+         {{"type", "object"},
+          {"description", "values for the parameters of the body, the same for every entry"},
+          {"additionalProperties", {{"type", {"number", "boolean", "string", "array"}}}}}}}}};
+  rules.push_back({{"if", {{"required", {"map"}}}}, {"then", {{"$ref", "#/definitions/map"}}}});
   Json properties = Json::object();
   if (!types.empty()) properties["type"] = {{"description", "node type"}, {"oneOf", std::move(types)}};
   properties["graph"] = {{"type", "string"}};
   properties["loop"] = {{"type", "string"}};
+  properties["map"] = {{"type", "string"}};
   properties["doc"] = {{"type", "string"}};
   properties["inputs"] = {{"type", "object"}};
   properties["params"] = {{"type", "object"}};
   return {{"type", "object"},
-          {"oneOf", {{{"required", {"type"}}}, {{"required", {"graph"}}}, {{"required", {"loop"}}}}},
+          {"oneOf",
+           {{{"required", {"type"}}},
+            {{"required", {"graph"}}},
+            {{"required", {"loop"}}},
+            {{"required", {"map"}}}}},
           {"properties", std::move(properties)},
           {"allOf", std::move(rules)}};
 }
 
 Json graph_param_schema() {
   const Json text = {{"type", "string"}};
-  return {{"type", "object"},
-          {"additionalProperties", false},
-          {"required", {"kind"}},
-          {"properties",
-           {{"kind", {{"enum", {"number", "integer", "boolean", "string", "choice", "file", "artifact"}}}},
-            {"default",
-             {{"type", {"number", "boolean", "string"}},
-              {"description", "without it the parameter must be given"}}},
-            {"minimum", {{"type", "number"}}},
-            {"maximum", {{"type", "number"}}},
-            {"choices",
-             {{"type", "array"},
-              {"minItems", 1},
-              {"items",
-               {{"anyOf",
-                 {text,
-                  {{"type", "object"},
-                   {"additionalProperties", false},
-                   {"required", {"value"}},
-                   {"properties", {{"value", text}, {"doc", text}}}}}}}}}},
-            {"unit", text},
-            {"type", {{"type", "string"}, {"description", "of the artifact, for the kind artifact"}}},
-            {"doc", text}}}};
+  return {
+      {"type", "object"},
+      {"additionalProperties", false},
+      {"required", {"kind"}},
+      {"properties",
+       {{"kind",
+         {{"enum",
+           {"number", "integer", "boolean", "string", "choice", "file", "list", "files", "artifact"}}}},
+        {"default",
+         {{"type", {"number", "boolean", "string", "array"}},
+          {"items", {{"type", {"number", "boolean", "string"}}}},
+          {"description", "without it the parameter must be given; an array for the kinds list and files"}}},
+        {"minimum", {{"type", "number"}}},
+        {"maximum", {{"type", "number"}}},
+        {"choices",
+         {{"type", "array"},
+          {"minItems", 1},
+          {"items",
+           {{"anyOf",
+             {text,
+              {{"type", "object"},
+               {"additionalProperties", false},
+               {"required", {"value"}},
+               {"properties", {{"value", text}, {"doc", text}}}}}}}}}},
+        {"unit", text},
+        {"type", {{"type", "string"}, {"description", "of the artifact, for the kind artifact"}}},
+        {"doc", text}}}};
 }
 
 Json sweep_schema() {

@@ -83,6 +83,7 @@ void add_plugins(const Command& app, Common& common, Action& action);
 void add_new_node(const Command& app, Common& common, Action& action);
 void add_explain(const Command& app, Common& common, Action& action);
 void add_render(const Command& app, Common& common, Action& action);
+void add_spheres(const Command& app, Common& common, Action& action);
 void add_look(const Command& app, Common& common, Action& action);
 void add_exec_node(const Command& app, Common& common, Action& action);
 void add_version(const Command& app, Common& common, Action& action);

@@ -40,7 +40,7 @@ std::string file_name(const DagOutput& output, const std::string& type,
                       const std::map<std::string, std::string>& formats, std::string& format) {
   const auto chosen = formats.find(output.base_name());
   format = chosen != formats.end() ? chosen->second : default_format(type);
-  return output.name + "." + format;
+  return output.name + "." + extension_of(type, format);
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 
+#include "ballflow/key.hpp"
+
 namespace ballflow::cli {
 namespace {
 
@@ -95,6 +97,9 @@ void Places::reads(const DagNode& node) {
     bool is_file = !path.empty();
     for (const std::string& scheme : param.schemes) is_file = is_file && !path.starts_with(scheme);
     if (is_file) reads("the " + param.name + " of node " + node.path, path);
+  }
+  for (const FileOfNode& file : files_named_by(node)) {
+    if (!file.path.empty()) reads(file.name + ", which a file of node " + node.path + " names", file.path);
   }
   if (const Loop* const loop = node.kind.loop()) {
     for (const DagNode& inner : loop->body.nodes) reads(inner);

@@ -1,3 +1,5 @@
+#include "commands/run_command.hpp"
+
 #include <unistd.h>
 
 #include <algorithm>
@@ -25,15 +27,6 @@
 
 namespace ballflow::cli {
 namespace {
-
-struct RunArguments {
-  GraphArguments graph;
-  RunSettings settings;
-  std::string out, report, trace;
-  std::vector<std::string> formats;
-  bool json = false, quiet = false;
-  bool sweep = false;  // the command is "sweep"
-};
 
 /// Hands every event to several sinks.
 class Sinks final : public EventSink {
@@ -182,7 +175,9 @@ std::vector<bool> looked_at(const Dag& dag, const RunOptions& options) {
   return nodes;
 }
 
-int run(const Common& common, const RunArguments& arguments) {
+}  // namespace
+
+int run_graph(const Common& common, const RunArguments& arguments, const AfterRun& after) {
   std::map<std::string, std::string> formats;
   for (const std::string& format : arguments.formats) {
     auto [output, name] = split_setting("--format", format, "balls=csv");
@@ -224,7 +219,7 @@ int run(const Common& common, const RunArguments& arguments) {
   options.cancel = &cancel;
   const Manifests earlier = latest_manifests(*store, arguments.graph.file);
   Sinks sinks;  // after what they use
-  if (!arguments.quiet) {
+  if (!arguments.quiet && (arguments.table || isatty(STDERR_FILENO) != 0)) {
     Expectations expectations;
     expectations.needed = looked_at(dag, options);
     expectations.plan = [&dag, store, &options, &earlier] {
@@ -284,8 +279,11 @@ int run(const Common& common, const RunArguments& arguments) {
   }
   std::signal(SIGPIPE, on_broken_pipe);
 
+  if (after && usable) after(dag, result, [&runner](const EdgeRef& edge) { return runner.artifact(edge); });
   if (!arguments.quiet && !arguments.json) {
-    if (dag.variants.empty()) {
+    if (!arguments.table) {
+      print_totals(result);
+    } else if (dag.variants.empty()) {
       print_result(dag, result);
     } else {
       print_variants(id, report);
@@ -306,7 +304,8 @@ int run(const Common& common, const RunArguments& arguments) {
                   printable(file.what).c_str());
     }
     for (const std::string& line : records) std::printf("%s\n", printable(line).c_str());
-    if (dag.variants.empty() && result.status == ExitCode::ok) print_facts(dag, result, report, id, recorded);
+    if (arguments.table && dag.variants.empty() && result.status == ExitCode::ok)
+      print_facts(dag, result, report, id, recorded);
   }
   for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
     if (result.nodes[i].status != NodeStatus::failed) continue;
@@ -329,8 +328,6 @@ int run(const Common& common, const RunArguments& arguments) {
   if (written.failure) throw Error(*written.failure);
   return static_cast<int>(result.status);
 }
-
-}  // namespace
 
 namespace {
 
@@ -370,8 +367,9 @@ void add_command(const Command& app, Common& common, Action& action, bool sweep)
         "DIR/report.json.\n"
         "\"ballflow compare\" prints the table again, with other columns and formats.");
   }
-  command.callback(
-      [&common, &action, arguments] { action = [&common, arguments] { return run(common, *arguments); }; });
+  command.callback([&common, &action, arguments] {
+    action = [&common, arguments] { return run_graph(common, *arguments); };
+  });
 }
 
 }  // namespace

@@ -14,7 +14,8 @@ const std::vector<TypeFormats>& table() {
       point_set_formats(),      triangle_mesh_formats(),      balls_formats(),
       pole_set_formats(),       local_feature_size_formats(), growth_formats(),
       cover_state_formats(),    simplicial_complex_formats(), medial_axis_formats(),
-      topology_table_formats(), sample_assignment_formats(),  surface_report_formats()};
+      topology_table_formats(), sample_assignment_formats(),  surface_report_formats(),
+      robot_spheres_formats()};
   return types;
 }
 
@@ -53,13 +54,22 @@ std::vector<std::string> exported_types() {
   return types;
 }
 
+std::string extension_of(std::string_view type, std::string_view format) {
+  for (const Format& known : formats_of(type)) {
+    if (known.name == format && !known.extension.empty()) return std::string(known.extension);
+  }
+  return std::string(format);
+}
+
 std::string default_format(std::string_view type) { return std::string(formats_of(type).front().name); }
 
 void export_artifact(const Artifact& artifact, const std::string& path, const std::string& format) {
   const std::string name = format.empty() ? extension(path) : format;
   const std::vector<Format> formats = formats_of(artifact.type());
-  const auto found =
-      std::find_if(formats.begin(), formats.end(), [&](const Format& f) { return f.name == name; });
+  auto found = std::find_if(formats.begin(), formats.end(), [&](const Format& f) { return f.name == name; });
+  if (found == formats.end() && format.empty())
+    found =
+        std::find_if(formats.begin(), formats.end(), [&](const Format& f) { return f.extension == name; });
   if (found == formats.end()) {
     std::string all;
     for (const Format& f : formats) all += (all.empty() ? "" : ", ") + std::string(f.name);

@@ -13,6 +13,7 @@
 //   SampleAssignment   csv ply vtp glb               vertex (or ball): which one each sample belongs to
 //   SurfaceReport      json ply vtp glb              evidence: 0 alpha-shape, 1 closes a gap, 2 a hole,
 //                                                    3 contradicted by poles; ply also with colours
+//   RobotSpheres       urdf srdf curobo xrdf foam mjcf csv   yml is curobo, xml is mjcf
 //   every type         json safetensors              summary and shapes; the artifact, byte for byte
 // clang-format on
 //
@@ -38,6 +39,9 @@ inline std::vector<std::string> export_formats(const Artifact& artifact) {
 
 /// The types that have formats of their own.
 std::vector<std::string> exported_types();
+
+/// The extension of files of a format.
+std::string extension_of(std::string_view type, std::string_view format);
 
 std::string default_format(std::string_view type);
 

@@ -14,8 +14,9 @@
 namespace ballflow {
 
 struct Format {
-  std::string_view name;  // also the extension
+  std::string_view name;
   void (*write)(const Artifact&, OutputFile&);
+  std::string_view extension = {};  // where it is not the name
 };
 
 struct TypeFormats {
@@ -26,7 +27,8 @@ struct TypeFormats {
 /// `write` applied to what `convert`, a function that takes a T, makes of the artifact.
 template <class T, PolyData (*convert)(const T&), void (*write)(const PolyData&, OutputFile&)>
 Format format(std::string_view name) {
-  return {name, [](const Artifact& artifact, OutputFile& out) { write(convert(typed<T>(artifact)), out); }};
+  return {
+      name, [](const Artifact& artifact, OutputFile& out) { write(convert(typed<T>(artifact)), out); }, {}};
 }
 
 TypeFormats point_set_formats();
@@ -41,6 +43,7 @@ TypeFormats medial_axis_formats();
 TypeFormats topology_table_formats();
 TypeFormats sample_assignment_formats();
 TypeFormats surface_report_formats();
+TypeFormats robot_spheres_formats();
 
 /// What every type can be written as.
 std::vector<Format> generic_formats();

@@ -31,6 +31,25 @@ std::string rounded(const Json& summary, const char* field) {
   return text;
 }
 
+std::string robot(const Json& s) {
+  std::string text = "robot ";
+  text.append(s.at("name").get<std::string>()).append(": ").append(counted(s, "links", "link"));
+  text.append(", ").append(number(s, "links_with_surface")).append(" with a surface, ");
+  text.append(counted(s, "moving_joints", "moving joint"))
+      .append(", ")
+      .append(counted(s, "triangles", "triangle"));
+  return text;
+}
+
+std::string robot_spheres(const Json& s) {
+  std::string text = counted(s, "balls", "ball");
+  text.append(" for ").append(counted(s, "links_with_balls", "link")).append(" of ");
+  text.append(s.at("name").get<std::string>());
+  if (s.at("poses") == 0) return text;
+  text.append("; ").append(counted(s, "untested_pairs", "pair")).append(" of links need no test, by ");
+  return text.append(counted(s, "poses", "pose"));
+}
+
 std::string cover(const Json& s) {
   if (s.contains("remaining") && s.at("remaining") == 0) {
     std::string text = counted(s, "chosen", "ball") + " chosen";
@@ -202,6 +221,8 @@ std::string describe(const OutputEntry& output) {
        }},
       {"MinkowskiReport", minkowski},
       {"MeshReport", mesh_report},
+      {"Robot", robot},
+      {"RobotSpheres", robot_spheres},
       {"Enclosure",
        [](const Json& s) {
          const bool proven = s.at("encloses").get<bool>();

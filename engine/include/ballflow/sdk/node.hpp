@@ -86,6 +86,11 @@ class Out {
   Summary extra_;
 };
 
+/// A file that a file names: the name as it is written there, and where it is, empty where it is not.
+struct NamedFile {
+  std::string name, path;
+};
+
 namespace detail {
 
 /// One value of a parameter with named values.
@@ -166,12 +171,17 @@ class AnyNodeDecl {
   std::string json() const;
   /// Makes a node, fills it, runs it and hands over its outputs. Returns a bf_status; throws nothing.
   int run(const bf_run& raw) const noexcept;
+  /// Whether it reads files that files name.
+  bool names_files() const { return operations_.files != nullptr; }
+  /// Which ones, for these parameters; none where something is wrong, which a run will say.
+  std::vector<NamedFile> files(bf_bytes params) const noexcept;
 
  protected:
   struct Operations {
     void* (*make)() = nullptr;
     void (*destroy)(void* node) = nullptr;
     void (*run)(void* node, RunContext& context) = nullptr;
+    std::vector<NamedFile> (*files)(const void* node) = nullptr;
   };
   struct Citation {
     std::string key, where;
@@ -193,6 +203,7 @@ class AnyNodeDecl {
   std::vector<Param> params_;
 
  private:
+  void fill_params(void* node, bf_bytes params) const;
   void fill(void* node, const bf_run& raw) const;
   void hand_over(const void* node, const bf_run& raw) const;
 };
@@ -227,7 +238,7 @@ class NodeDecl : public detail::AnyNodeDecl {
 
   NodeDecl() {
     operations_ = {[]() -> void* { return new N{}; }, [](void* node) { delete static_cast<N*>(node); },
-                   [](void* node, RunContext& context) { static_cast<N*>(node)->run(context); }};
+                   [](void* node, RunContext& context) { static_cast<N*>(node)->run(context); }, nullptr};
   }
 
   /// `behaviour_version` grows whenever equal inputs and parameters may give another output.
@@ -261,6 +272,14 @@ class NodeDecl : public detail::AnyNodeDecl {
   /// Peak memory beyond inputs and outputs: `fixed` bytes + `per_input_byte` times the bytes of all inputs.
   NodeDecl& memory(std::uint64_t fixed, double per_input_byte) {
     memory_ = {fixed, per_input_byte};
+    return *this;
+  }
+
+  /// The node reads files that its file parameters name, like the meshes of a robot. `List` is a member
+  /// function that lists them, from the parameters alone; their contents then are in the key.
+  template <std::vector<NamedFile> (N::*List)() const>
+  NodeDecl& reads_named_files() {
+    operations_.files = [](const void* node) { return (static_cast<const N*>(node)->*List)(); };
     return *this;
   }
 

@@ -159,9 +159,9 @@ TEST(graph_error, unknown_node_type) {
 
 TEST(graph_error, a_node_is_a_type_or_a_graph) {
   EXPECT_EQ(errors(with_nodes("\"b\":{}")),
-            "g.json:2:1: node \"b\" has no \"type\", \"graph\" or \"loop\" (at /nodes/b)\n"
-            "  \"type\" names a node type, \"graph\" the file of a subgraph, \"loop\" that of the body of a "
-            "loop\n");
+            "g.json:2:1: node \"b\" has no \"type\", \"graph\", \"loop\" or \"map\" (at /nodes/b)\n"
+            "  \"type\" names a node type, \"graph\" the file of a subgraph, \"loop\" and \"map\" that of "
+            "the body of a loop or map\n");
   EXPECT_EQ(
       errors(with_nodes("\"b\":{\"type\":\"Load\",\"graph\":\"x.json\"}")),
       "g.json:2:28: node \"b\" has both \"type\" and \"graph\" (at /nodes/b/graph)\n  keep one of them\n");
@@ -272,7 +272,7 @@ TEST(graph_error, parameters_of_the_graph) {
   };
   EXPECT_EQ(declared("\"a\":{\"default\":1}"),
             "g.json:2:1: parameter \"a\" has no \"kind\" (at /params/a)\n"
-            "  kinds are number, integer, boolean, string, choice, file and artifact\n");
+            "  kinds are number, integer, boolean, string, choice, file, list, files and artifact\n");
   EXPECT_EQ(declared("\"a\":{\"kind\":\"numbr\"}"),
             "g.json:2:13: unknown kind \"numbr\" (at /params/a/kind)\n  did you mean \"number\"?\n");
   EXPECT_EQ(declared("\"a\":{\"kind\":\"number\",\"minimum\":1,\"default\":0}"),

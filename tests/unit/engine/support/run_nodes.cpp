@@ -259,6 +259,41 @@ struct FromFile {
   }
 };
 
+/// The sum of the numbers in the files that a file names, one a line, relative to it.
+struct Total {
+  Out<Numbers> numbers;
+  std::string file;
+  double scale = 1;
+  static void declare(NodeDecl<Total>& d) {
+    d.id("Total", 1).summary("Adds up numbers in files.");
+    d.reads_named_files<&Total::named>();
+    d.output("numbers", &Total::numbers).doc("the sum");
+    d.param("file", &Total::file).file().doc("a file with names of files");
+    d.param("scale", &Total::scale).doc("factor; no file is read when it is 0");
+  }
+  std::vector<NamedFile> named() const {
+    std::vector<NamedFile> files;
+    std::ifstream list(file);
+    for (std::string name; scale != 0 && std::getline(list, name);) {
+      if (name == "throw") throw std::runtime_error("on purpose");
+      const std::string path = file.substr(0, file.rfind('/') + 1) + name;
+      files.push_back({name, std::ifstream(path) ? path : ""});
+    }
+    return files;
+  }
+  void run(RunContext&) {
+    if (before_reading) before_reading(file);
+    double sum = 0;
+    for (const NamedFile& one : named()) {
+      if (one.path.empty()) throw NodeError("there is no file " + one.name, "put it there");
+      double value = 0;
+      std::ifstream(one.path) >> value;
+      sum += scale * value;
+    }
+    numbers = Numbers{std::vector<double>{sum}};
+  }
+};
+
 /// Says nonsense: a progress that is no number, a warning that is no text.
 struct Babble {
   Out<Numbers> numbers;
@@ -298,7 +333,7 @@ const bf_plugin& plugin() {
       "toy", "1",
       [] {
         return node_entries<Source, Add, Round, Slow, Fail, Step, Noisy, Threads, Busy, Negative, Heavy,
-                            FromFile, Babble, Concat>();
+                            FromFile, Babble, Concat, Total>();
       },
       [] { return type_entries<Numbers>(); });
   return *plugin;

@@ -8,6 +8,7 @@
 //   Threads   the number of threads              Busy      40 ms of CPU time
 //   Negative  an output that its type forbids    Heavy     says that it needs 60 B
 //   FromFile  the number in a file               Babble    messages that are no text
+//   Total     the sum of the numbers in the files that a file names
 #pragma once
 
 #include <atomic>

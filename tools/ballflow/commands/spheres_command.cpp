@@ -1,0 +1,237 @@
+// "ballflow spheres": collision spheres of robots and links. Reads which links there are, and runs a graph.
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "ballflow/output_file.hpp"
+#include "ballflow/text.hpp"
+#include "commands/run_command.hpp"
+#include "io/file_content.hpp"
+#include "report/spheres_page.hpp"
+#include "show/typed.hpp"
+#include "types/enclosure_type.hpp"
+#include "urdf/sample_robot.hpp"
+#include "urdf/urdf.hpp"
+
+namespace ballflow::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SpheresArguments {
+  RunArguments run;
+  std::string file, check, page;
+  std::vector<std::string> links, packages;
+  bool visual = false;
+  double buffer = 0;
+};
+
+std::string joined(const std::vector<std::string>& texts, const char* separator) {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : separator) + text;
+  return all;
+}
+
+bool is_scheme(const std::string& file, std::string_view scheme) { return file.starts_with(scheme); }
+
+/// The text of the file when it is a robot's; else none.
+std::optional<std::string> robot_text(const Common& common, const std::string& file) {
+  if (is_scheme(file, geometry::sample_robot_scheme)) return geometry::sample_robot(file);
+  if (is_scheme(file, "shape:")) return std::nullopt;
+  common.places->reads("the robot or link", file);
+  constexpr std::int64_t most_bytes = std::int64_t{2} << 30;
+  const geometry::FileContent content = geometry::read_file_content(file, most_bytes);
+  const std::string_view text = content.view();
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos || text[first] != '<') return std::nullopt;
+  return std::string(text);
+}
+
+[[noreturn]] void throw_usage(const geometry::InputError& error) {
+  const std::string text = error.what();
+  const std::size_t split = text.find('\n');
+  throw Error(ExitCode::usage, text.substr(0, split),
+              split == std::string::npos ? "" : text.substr(split + 1));
+}
+
+/// Names of the links that the command is about.
+std::vector<std::string> links_of(const SpheresArguments& arguments, const std::string& text) {
+  const geometry::Urdf urdf = geometry::parse_urdf(text, arguments.file);
+  std::vector<std::string> known = geometry::links_with_shapes(urdf, arguments.visual);
+  if (known.empty()) {
+    throw Error(
+        ExitCode::usage,
+        arguments.file + ": no link has a shape that is meant " +
+            (arguments.visual ? "to be seen" : "for collisions"),
+        arguments.visual ? "leave out --visual" : "--visual takes the shapes that are meant to be seen");
+  }
+  if (arguments.links.empty()) return known;
+  for (const std::string& name : arguments.links) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    const std::string near = nearest(name, known);
+    throw Error(ExitCode::usage, arguments.file + " has no link \"" + name + "\" with a shape",
+                near.empty() ? "its links are " + joined(known, ", ") : "did you mean \"" + near + "\"?");
+  }
+  return arguments.links;
+}
+
+std::string graph_file(const std::string& name) {
+  // In the build folder as where ballflow is installed.
+  return fs::path(Registry::default_folder() + "/../../share/ballflow/graphs/" + name)
+      .lexically_normal()
+      .string();
+}
+
+std::string list_text(const std::vector<std::string>& names) {
+  return Json(names).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string digest_of(Store& store, const std::string& file) {
+  return fs::is_regular_file(file) ? store.file_digest(file).hex() : std::string();
+}
+
+/// The number of a field of a summary, 0 where there is none.
+double field(const OutputEntry& entry, const char* name) {
+  const Json summary = Json::parse(entry.summary, nullptr, false);
+  const auto found = summary.is_object() ? summary.find(name) : summary.end();
+  return summary.is_object() && found != summary.end() && found->is_number() ? found->get<double>() : 0;
+}
+
+std::vector<report::LinkCheck> checks_of(const Dag& dag, const RunResult& result,
+                                         const std::vector<std::string>& links,
+                                         const std::function<ArtifactPtr(const EdgeRef&)>& load) {
+  std::vector<report::LinkCheck> checks;
+  std::size_t measured = 0;
+  for (const DagOutput& output : dag.outputs) {
+    for (const OutputEntry& entry : result.nodes[output.from.node].outputs) {
+      if (entry.port != output.from.port) continue;
+      if (output.base_name() == "enclosure") {
+        const ArtifactPtr artifact = load(output.from);
+        report::LinkCheck& check = checks.emplace_back();
+        check.link = links.at(checks.size() - 1);
+        check.enclosure = typed<geometry::Enclosure>(*artifact);
+      }
+      if (output.base_name() == "measure" && measured < checks.size()) {
+        checks[measured].volume = field(entry, "volume");
+        checks[measured++].solid_volume = field(entry, "solid_volume");
+      }
+    }
+  }
+  return checks;
+}
+
+/// Of reading; what the copies warn about is in the table.
+void tell_warnings(const Dag& dag, const RunResult& result) {
+  for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
+    if (dag.nodes[i].path.find('/') != std::string::npos || dag.nodes[i].path == "verify" ||
+        dag.nodes[i].path == "measure")
+      continue;
+    for (const std::string& warning : result.nodes[i].warnings)
+      std::fprintf(stderr, "warning: %s\n", printable(warning).c_str());
+  }
+}
+
+int check(const Common& common, SpheresArguments arguments) {
+  std::vector<std::string> links;
+  std::string robot_name = arguments.file;
+  GraphArguments& graph = arguments.run.graph;
+  try {
+    if (const std::optional<std::string> text = robot_text(common, arguments.file)) {
+      links = links_of(arguments, *text);
+      graph.file = graph_file("check_spheres.json");
+      graph.sets = {"robot=" + arguments.file,
+                    "spheres=" + arguments.check,
+                    "links=" + list_text(links),
+                    std::string("geometry=") + (arguments.visual ? "visual" : "collision"),
+                    "packages=" + joined(arguments.packages, ":"),
+                    "buffer=" + Json(arguments.buffer).dump()};
+    } else {
+      if (!arguments.links.empty() || arguments.visual || arguments.buffer != 0)
+        throw Error(ExitCode::usage,
+                    arguments.file + " is a mesh: --links, --visual and --buffer are for robots",
+                    "leave them out, or give a URDF");
+      links = {fs::path(arguments.file).filename().string()};
+      graph.file = graph_file("enclosure.json");
+      graph.sets = {"input=" + arguments.file, "balls=" + arguments.check};
+    }
+  } catch (const geometry::InputError& error) {
+    throw_usage(error);
+  }
+  common.places->writes("--page", arguments.page);
+  arguments.run.table = false;
+  return run_graph(common, arguments.run, [&](const Dag& dag, const RunResult& result, const auto& load) {
+    report::SpheresCheck page;
+    page.robot = fs::path(arguments.file).filename().string();
+    page.spheres = fs::path(arguments.check).filename().string();
+    const auto store = common.store();
+    page.robot_digest = digest_of(*store, arguments.file);
+    page.spheres_digest = digest_of(*store, arguments.check);
+    page.geometry = arguments.visual ? "visual" : "collision";
+    page.buffer = arguments.buffer;
+    page.links = checks_of(dag, result, links, load);
+    page.version = BALLFLOW_VERSION;
+    if (!arguments.run.quiet && !arguments.run.json) {
+      tell_warnings(dag, result);
+      print_table(report::table(page));
+      std::printf("\n%s\n", printable(report::verdict(page)).c_str());
+    }
+    if (arguments.page.empty()) return;
+    const bool markdown = arguments.page.ends_with(".md") || arguments.page.ends_with(".markdown");
+    write_atomically(arguments.page, markdown ? report::markdown_page(page) : report::html_page(page));
+    if (!arguments.run.quiet && !arguments.run.json)
+      std::printf("wrote %s\n", printable(arguments.page).c_str());
+  });
+}
+
+int spheres(const Common& common, const SpheresArguments& arguments) {
+  if (!arguments.check.empty()) return check(common, arguments);
+  throw Error(ExitCode::usage, "what to do with " + arguments.file + " is not said",
+              "--check SPHERES tells what spheres of another program leave out of it");
+}
+
+}  // namespace
+
+void add_spheres(const Command& app, Common& common, Action& action) {
+  const Command command = app.subcommand(
+      "spheres", "collision spheres of a robot or link: tell what those of another program leave out");
+  const auto arguments = std::make_shared<SpheresArguments>();
+  command.option("file", arguments->file, "a URDF, or the mesh of a link; robot:arm is a small robot to try")
+      .required()
+      .type_name("ROBOT");
+  command
+      .option(
+          "--check", arguments->check,
+          "spheres to check: cuRobo YAML, XRDF, foam or ballpark JSON, URDF, SRDF, CSV (link,x,y,z,radius);\n"
+          "for a mesh balls, as in \"graphs/enclosure.json\"")
+      .type_name("SPHERES");
+  command.option("--page", arguments->page, "file that receives the verdict as a page: .html or .md")
+      .type_name("FILE");
+  command.option("--links", arguments->links, "names of the links; default: all that have a shape")
+      .type_name("NAME,NAME")
+      .delimiter(',');
+  command.flag("--visual", arguments->visual,
+               "the shapes that are meant to be seen, not those for collisions");
+  command.option("--packages", arguments->packages, "a folder with ROS packages or meshes; may be repeated")
+      .type_name("DIR")
+      .one_at_a_time();
+  command.option("--buffer", arguments->buffer, "metres that are added to every radius").between(0.0, 1e6);
+  command
+      .option("--out", arguments->run.out,
+              "folder that receives the verdict of each link, its spheres and its mesh")
+      .type_name("DIR");
+  command.option("--report", arguments->run.report, "file that receives the report of the run (JSON)")
+      .type_name("FILE");
+  command.option("--cache", common.cache, "cache folder").type_name("DIR");
+  command.flag("--no-cache", common.no_cache, "neither read nor write a cache");
+  command.option("--threads", arguments->run.settings.threads, "number of threads; 0: all").between(0, 4096);
+  command.flag("--json", arguments->run.json, "write events as lines of JSON to the standard output");
+  command.flag("--quiet", arguments->run.quiet, "print errors only");
+  command.footer(
+      "  ballflow spheres robot.urdf --check spheres.yml --page check.html\n"
+      "  ballflow spheres link.stl --check spheres.csv");
+  command.callback([&common, &action, arguments] {
+    action = [&common, arguments] { return spheres(common, *arguments); };
+  });
+}
+
+}  // namespace ballflow::cli

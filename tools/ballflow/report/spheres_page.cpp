@@ -1,0 +1,216 @@
+#include "report/spheres_page.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+
+#include "report/html.hpp"
+#include "report/style.hpp"
+
+namespace ballflow::report {
+namespace {
+
+using geometry::Enclosure;
+
+std::string text(const char* format, double value) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, format, value);
+  return buffer;
+}
+
+std::string percent(double share) {
+  if (share == 0) return "0";
+  return share < 0.0005 ? "under 0.05 %" : text(share < 0.0995 ? "%.2g %%" : "%.3g %%", 100 * share);
+}
+std::string length(double metres) { return metres == 0 ? "0" : text("%.3g mm", 1000 * metres); }
+
+double open_share(const Enclosure& e) { return e.area > 0 ? e.open_area / e.area : 0; }
+
+/// How much of the balls is outside of the link, by volumes; only where all of the link is inside.
+std::string outside(const LinkCheck& link) {
+  if (link.solid_volume <= 0 || !link.enclosure.encloses()) return "-";
+  return percent(std::max(0.0, link.volume / link.solid_volume - 1));
+}
+
+std::string place(geometry::Vec3 p) {
+  return "(" + text("%.5g", p.x) + ", " + text("%.5g", p.y) + ", " + text("%.5g", p.z) + ")";
+}
+
+struct Totals {
+  std::size_t enclosed = 0;
+  std::int64_t balls = 0;
+  double area = 0, open_area = 0, gap = 0;
+};
+
+Totals totals(const SpheresCheck& check) {
+  Totals all;
+  for (const LinkCheck& link : check.links) {
+    all.enclosed += link.enclosure.encloses() ? 1 : 0;
+    all.balls += link.enclosure.balls;
+    all.area += link.enclosure.area;
+    all.open_area += link.enclosure.open_area;
+    all.gap = std::max(all.gap, link.enclosure.gap);
+  }
+  return all;
+}
+
+std::string verdict_of(const LinkCheck& link) {
+  if (link.enclosure.balls == 0) return "no spheres";
+  if (link.enclosure.encloses()) return "enclosed: proven";
+  if (link.enclosure.covers()) return "void inside";
+  return "not enclosed";
+}
+
+const std::vector<std::string>& explanations() {
+  static const std::vector<std::string> lines = {
+      "A link is enclosed when its spheres contain every triangle of it and leave no void inside; then they "
+      "contain "
+      "everything that the surface separates from infinity. Both are decided exactly, by bisecting triangles "
+      "until each "
+      "part is in one sphere, and by the dual complex of the spheres; nothing is sampled.",
+      "Surface outside: about which part of the surface is in no sphere, by pieces of half a percent of the "
+      "box. "
+      "Farthest: the farthest of the looked-at points of the surface from the spheres; the true distance is "
+      "a little "
+      "more.",
+      "Protrusion: no point of the spheres is farther than that from the link (a bound). Volume outside: how "
+      "much the "
+      "spheres have beyond the volume of the link, where it is enclosed and its surface is closed; parts of "
+      "a link "
+      "that overlap count twice in its volume.",
+  };
+  return lines;
+}
+
+std::vector<std::string> sources(const SpheresCheck& check) {
+  std::vector<std::string> lines;
+  const auto file = [&](const char* what, const std::string& name, const std::string& digest) {
+    lines.push_back(std::string(what) + ": " + name + (digest.empty() ? "" : " (SHA-256 " + digest + ")"));
+  };
+  file("Robot", check.robot, check.robot_digest);
+  file("Spheres", check.spheres, check.spheres_digest);
+  lines.push_back("Shapes: " + check.geometry);
+  if (check.buffer != 0) lines.push_back("Added to every radius: " + length(check.buffer));
+  lines.push_back("Checked by: ballflow " + check.version);
+  return lines;
+}
+
+/// Where a link is open, at most `most` places.
+std::vector<std::string> places(const LinkCheck& link, std::size_t most) {
+  std::vector<std::string> lines;
+  const Enclosure& e = link.enclosure;
+  std::set<std::string> told;  // triangles share their corners
+  for (std::size_t i = 0; i < e.open_points.size() && told.size() < most; ++i) {
+    const std::string where = place(e.open_points[i]);
+    if (told.insert(where).second)
+      lines.push_back("triangle " + std::to_string(e.open_triangles[i]) + " at " + where);
+  }
+  for (std::size_t i = 0; i < e.void_points.size() && i < most; ++i) {
+    if (e.void_places[i] != static_cast<std::uint8_t>(geometry::VoidPlace::outside))
+      lines.push_back("a void around " + place(e.void_points[i]));
+  }
+  return lines;
+}
+
+constexpr std::size_t most_places = 5;
+
+std::string counted_places(const LinkCheck& link) {
+  const std::size_t open = link.enclosure.open_triangles.size();
+  return std::to_string(open) + " of " + std::to_string(link.enclosure.triangles) +
+         " triangles are not covered" + (open > most_places ? "; some of them:" : ":");
+}
+
+std::string cell(std::string value) {
+  for (std::size_t at = 0; (at = value.find('|', at)) != std::string::npos; at += 2) value.insert(at, "\\");
+  return value;
+}
+
+}  // namespace
+
+std::string verdict(const SpheresCheck& check) {
+  const Totals all = totals(check);
+  const std::string links =
+      std::to_string(check.links.size()) + (check.links.size() == 1 ? " link" : " links");
+  const std::string balls = std::to_string(all.balls) + (all.balls == 1 ? " sphere" : " spheres");
+  std::string line;
+  if (all.enclosed == check.links.size()) {
+    line = links + (check.links.size() == 1 ? " is" : " are") + " enclosed by " + balls + ": proven";
+  } else {
+    line = std::to_string(all.enclosed) + " of " + links + " enclosed by " + balls;
+  }
+  if (all.enclosed < check.links.size() && all.area > 0)
+    line += "; " + percent(all.open_area / all.area) + " of the surface is outside, up to " + length(all.gap);
+  return line;
+}
+
+std::vector<std::vector<std::string>> table(const SpheresCheck& check) {
+  std::vector<std::vector<std::string>> rows = {
+      {"link", "spheres", "verdict", "surface outside", "farthest", "protrusion", "volume outside"}};
+  for (const LinkCheck& link : check.links) {
+    rows.push_back({link.link, std::to_string(link.enclosure.balls), verdict_of(link),
+                    percent(open_share(link.enclosure)), length(link.enclosure.gap),
+                    length(link.enclosure.protrusion), outside(link)});
+  }
+  return rows;
+}
+
+std::string markdown_page(const SpheresCheck& check) {
+  std::string page = "# Do the spheres contain the robot?\n\n" + verdict(check) + ".\n\n";
+  for (const std::string& line : sources(check)) page += "- " + line + "\n";
+  page += "\n";
+  const auto rows = table(check);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    page += "|";
+    for (const std::string& value : rows[i]) page += " " + cell(value) + " |";
+    page += "\n";
+    if (i == 0) page += "|---|--:|---|--:|--:|--:|--:|\n";
+  }
+  bool heading = false;
+  for (const LinkCheck& link : check.links) {
+    const std::vector<std::string> open = places(link, most_places);
+    if (open.empty()) continue;
+    if (!heading) page += "\n## Where\n\nPoints in the frame of each link, metres.\n\n";
+    heading = true;
+    page += "- " + link.link + ": " + counted_places(link) + "\n";
+    for (const std::string& line : open) page += "  - " + line + "\n";
+  }
+  page += "\n## What the numbers mean\n\n";
+  for (const std::string& line : explanations()) page += line + "\n\n";
+  page.pop_back();
+  return page;
+}
+
+std::string html_page(const SpheresCheck& check) {
+  std::string page =
+      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+      "content=\"width=device-width\">\n<title>" +
+      escaped(check.spheres) + " for " + escaped(check.robot) + "</title>\n<style>" + style_sheet() +
+      "</style></head><body>\n<h1>Do the spheres contain the robot?</h1>\n<p>" + escaped(verdict(check)) +
+      ".</p>\n<ul>";
+  for (const std::string& line : sources(check)) page += "<li>" + escaped(line) + "</li>\n";
+  page += "</ul>\n<table>\n";
+  const auto rows = table(check);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::string tag = i == 0 ? "th" : "td";
+    page += "<tr>";
+    for (const std::string& value : rows[i]) page += "<" + tag + ">" + escaped(value) + "</" + tag + ">";
+    page += "</tr>\n";
+  }
+  page += "</table>\n";
+  bool heading = false;
+  for (const LinkCheck& link : check.links) {
+    const std::vector<std::string> open = places(link, most_places);
+    if (open.empty()) continue;
+    if (!heading) page += "<h2>Where</h2>\n<p>Points in the frame of each link, metres.</p>\n<ul>\n";
+    heading = true;
+    page += "<li>" + escaped(link.link + ": " + counted_places(link)) + "<ul>";
+    for (const std::string& line : open) page += "<li>" + escaped(line) + "</li>";
+    page += "</ul></li>\n";
+  }
+  if (heading) page += "</ul>\n";
+  page += "<h2>What the numbers mean</h2>\n";
+  for (const std::string& line : explanations()) page += "<p>" + escaped(line) + "</p>\n";
+  return page + "</body></html>\n";
+}
+
+}  // namespace ballflow::report
