@@ -61,6 +61,7 @@ class Host {
     run.struct_size = sizeof run;
     run.max_threads = request_.threads;
     run.seed = request_.seed;
+    run.memory_bytes = request_.memory_bytes;
     const std::string& id = request_.node->kind.type();
     run.node = {id.data(), id.size()};
     run.params = {params_.data(), params_.size()};
