@@ -238,7 +238,7 @@ std::string wrong_input(const ExecutionRequest& request) {
     const TypeDeclaration* type = decl == nullptr ? nullptr : request.registry->type(decl->type);
     if (type == nullptr) continue;
     const std::string wrong = check_arrays(*type, *artifact);
-    if (!wrong.empty()) return "input \"" + port + "\" " + wrong;
+    if (!wrong.empty()) return ("input \"" + port).append("\" ").append(wrong);
   }
   return {};
 }
