@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <stdexcept>
 #include <string>
@@ -33,6 +34,9 @@ class Monitor {
   virtual void note(const std::string& text) { (void)text; }
   /// Something the user should know although the result is valid.
   virtual void warn(const std::string& text) { (void)text; }
+  /// Bytes that the computation may take; 0 when nobody has said (memory.hpp). Results must not depend on it:
+  /// only whether the computation is refused.
+  virtual std::uint64_t memory_bytes() { return 0; }
 
   /// Reports progress; throws Cancelled when the result is no longer wanted.
   void step(double fraction) {
@@ -49,6 +53,7 @@ class PartMonitor final : public Monitor {
   bool cancelled() override { return whole_.cancelled(); }
   void note(const std::string& text) override { whole_.note(text); }
   void warn(const std::string& text) override { whole_.warn(text); }
+  std::uint64_t memory_bytes() override { return whole_.memory_bytes(); }
 
  private:
   Monitor& whole_;

@@ -1,7 +1,6 @@
 #include "cover/cover_matrix.hpp"
 
 #include <tbb/enumerable_thread_specific.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "base/for_each_block.hpp"
+#include "base/memory.hpp"
 #include "cover/residual.hpp"
 #include "search/membership.hpp"
 #include "search/sample_tree.hpp"
@@ -110,19 +110,16 @@ std::string how_many(const std::vector<std::int32_t>& uncovered, std::size_t sam
 
 }  // namespace
 
-void require_memory(std::int64_t entries, const CoverMatrixOptions& options) {
+void require_memory(std::int64_t entries, const CoverMatrixOptions& options, Monitor& monitor) {
   const double bytes = 4.0 * static_cast<double>(entries);
-  const double memory =
-      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  if (entries <= options.max_entries && bytes <= memory) return;
-  char size[32];
-  std::snprintf(size, sizeof size, "%.1f GB", bytes / 1e9);
+  const MemoryLimit memory(monitor);
+  if (entries <= options.max_entries && memory.allows(bytes)) return;
   throw InputError(
-      "the matrix would have " + std::to_string(entries) + " entries (" + size + "); " +
-          (entries > options.max_entries
-               ? "max_entries is " + std::to_string(options.max_entries)
-               : "the machine has " + std::to_string(static_cast<std::int64_t>(memory / 1e9)) + " GB"),
-      "enlarge the balls less, thin the sample, or raise max_entries on a machine with more memory");
+      "the matrix would have " + std::to_string(entries) + " entries (" + size_text(bytes) + "); " +
+          (entries > options.max_entries ? "max_entries is " + std::to_string(options.max_entries)
+                                         : memory.text()),
+      entries > options.max_entries ? "enlarge the balls less, thin the sample, or raise max_entries"
+                                    : "enlarge the balls less, thin the sample, or grant more memory");
 }
 
 void require_coverable(const Balls& balls, const PointSet& points) {
@@ -200,7 +197,7 @@ CoverMatrix cover_matrix(const Balls& balls, const PointSet& points, const Cover
   const std::int64_t longest = *std::max_element(offsets.begin(), offsets.end());
   for (std::size_t i = 0; i < m; ++i) offsets[i + 1] += offsets[i];
   const std::int64_t entries = offsets[m];
-  require_memory(entries, options);
+  require_memory(entries, options, monitor);
 
   // Not initialised, and with room for the rows of uncovered samples; untouched pages cost nothing.
   const std::shared_ptr<std::int32_t[]> columns(new std::int32_t[static_cast<std::size_t>(entries) + n]);

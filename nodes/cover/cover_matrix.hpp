@@ -34,13 +34,13 @@ struct CoverMatrix {
 /// - Time O((m + n) log n + entries), memory 4 bytes per entry, 70 bytes per sample, at most 1.2 KB per ball.
 ///
 /// Refused with InputError: coordinates or radii beyond 1e140, defining samples that are not in `points`, a
-/// matrix of more than `max_entries` entries or larger than the memory of the machine, uncovered samples
+/// matrix of more than `max_entries` entries or larger than the memory (base/memory.hpp), uncovered samples
 /// under UncoveredPolicy::error.
 CoverMatrix cover_matrix(const Balls& balls, const PointSet& points, const CoverMatrixOptions& options = {},
                          Monitor& monitor = no_monitor());
 
-/// Refuses a matrix of more than `max_entries` entries or larger than the memory of the machine.
-void require_memory(std::int64_t entries, const CoverMatrixOptions& options);
+/// Refuses a matrix of more than `max_entries` entries or larger than the memory that the monitor grants.
+void require_memory(std::int64_t entries, const CoverMatrixOptions& options, Monitor& monitor);
 
 /// Refuses coordinates and radii whose squares overflow, and defining samples out of range.
 void require_coverable(const Balls& balls, const PointSet& points);

@@ -78,7 +78,7 @@ CoverMatrix patch_matrix(const Balls& balls, const TriangleMesh& patches, const 
     longest = std::max(longest, row.size());
     for (const std::int32_t t : row) number[at(t)] = 0;
   }
-  require_memory(entries, options);
+  require_memory(entries, options, monitor);
   std::vector<std::int32_t> column_ids, uncovered;
   for (std::size_t t = 0; t < n; ++t) {
     const auto id = static_cast<std::int32_t>(t);

@@ -2,7 +2,6 @@
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -14,6 +13,7 @@
 
 #include "base/for_each_block.hpp"
 #include "base/index.hpp"
+#include "base/memory.hpp"
 #include "minkowski/containment_filter.hpp"
 #include "minkowski/power_triangulation.hpp"
 #include "minkowski/sums.hpp"
@@ -42,30 +42,28 @@ void require_usable(const Balls& balls, const char* name) {
 
 // Measured with bench_minkowski: a list of sums and its order take 72 bytes a sum, the triangulation 700
 // bytes a vertex. Of millions of pairs one in 20 is a vertex, of what is left by the filter one in four.
-constexpr double bytes_per_pair = 108, bytes_per_survivor = 248;
+constexpr double bytes_per_vertex = 700, bytes_per_pair = 72 + bytes_per_vertex / 20,
+                 bytes_per_survivor = 72 + bytes_per_vertex / 4;
 
-/// How many sums fit into the memory of the machine, and have indices.
-std::int64_t most_sums(double bytes_per_sum) {
-  const double memory =
-      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  return static_cast<std::int64_t>(std::min(memory / bytes_per_sum, static_cast<double>(most_indices - 1)));
+/// How many sums fit into the memory, and have indices.
+std::int64_t most_sums(double bytes_per_sum, const MemoryLimit& memory) {
+  return static_cast<std::int64_t>(
+      std::min(memory.bytes / bytes_per_sum, static_cast<double>(most_indices - 1)));
 }
 
 /// `sums` would have to be triangulated, or `more` than that.
-void require_memory(std::int64_t sums, double bytes_per_sum, bool more = false) {
-  if (sums <= most_sums(bytes_per_sum) && !more) return;
-  const double memory =
-      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  char text[96];
-  std::snprintf(text, sizeof text, "about %.1f GB; the machine has %.1f GB",
-                bytes_per_sum * static_cast<double>(sums) / 1e9, memory / 1e9);
-  throw InputError((more ? "more than " : "") + std::to_string(sums) +
-                       " sums of two balls would have to be triangulated, which takes " + text,
-                   "prune the inputs more (a larger epsilon), or use algorithm filtered or memory");
+void require_memory(std::int64_t sums, double bytes_per_sum, const MemoryLimit& memory, bool more = false) {
+  if (sums <= most_sums(bytes_per_sum, memory) && !more) return;
+  throw InputError(
+      (more ? "more than " : "") + std::to_string(sums) +
+          " sums of two balls would have to be triangulated, which takes about " +
+          size_text(bytes_per_sum * static_cast<double>(sums)) + "; " + memory.text(),
+      "prune the inputs more (a larger epsilon), use algorithm filtered or memory, or grant more "
+      "memory");
 }
 
 std::vector<Ball> all_sums(const Sums& sums, Monitor& monitor) {
-  require_memory(sums.pairs(), bytes_per_pair);
+  require_memory(sums.pairs(), bytes_per_pair, MemoryLimit(monitor));
   std::vector<Ball> all;
   all.reserve(static_cast<std::size_t>(sums.pairs()));
   sums.for_each(monitor, 0, 0.05, [&all](const Ball& sum) { all.push_back(sum); });
@@ -108,7 +106,8 @@ std::vector<Ball> filtered_sums(const Sums& sums, Monitor& monitor) {
   filters.clear();
   filter.spread(monitor);
 
-  const std::int64_t most = most_sums(bytes_per_survivor);
+  const MemoryLimit memory(monitor);
+  const std::int64_t most = most_sums(bytes_per_survivor, memory);
   std::vector<std::vector<Ball>> left(blocks_of(pairs, step));
   std::atomic<std::int64_t> count{0};
   for_each_block(pairs, step, monitor, 0.05, 0.15,
@@ -124,7 +123,7 @@ std::vector<Ball> filtered_sums(const Sums& sums, Monitor& monitor) {
                      }
                    });
                    const auto size = static_cast<std::int64_t>(passed.size());
-                   if ((count += size) > most) require_memory(most, bytes_per_survivor, true);
+                   if ((count += size) > most) require_memory(most, bytes_per_survivor, memory, true);
                    left[block] = std::move(passed);
                  });
   std::vector<Ball> all;
@@ -186,12 +185,13 @@ MinkowskiSum minkowski_sum(const Balls& a, const Balls& b, const MinkowskiSumOpt
   PowerTriangulation triangulation;
   if (options.algorithm == MinkowskiAlgorithm::memory) {
     constexpr std::size_t work = 4096;  // about 10 us
+    const MemoryLimit memory(monitor);
     sums.for_each(
         monitor, 0, 0.9,
         [&, looked = std::int64_t{0}](const Ball& sum) mutable {
           triangulation.insert_if_contributing(sum);
-          if (++looked % (1 << 20) == 0)
-            require_memory(static_cast<std::int64_t>(triangulation.vertices()), bytes_per_survivor);
+          if (++looked % 4096 == 0)
+            require_memory(static_cast<std::int64_t>(triangulation.vertices()), bytes_per_vertex, memory);
         },
         work);
     result.report.survivors = static_cast<std::int64_t>(triangulation.vertices());

@@ -68,7 +68,7 @@ struct MinkowskiSum {
 /// - The report has the error_bound of the comparisons `of` a and b.
 /// - Throws InputError for balls and comparisons that break their invariants, for coordinates and radii that
 /// are not 0 and outside
-///   [1e-150, 1e150], and for more sums to triangulate than indices or the memory of the machine hold.
+///   [1e-150, 1e150], and for more sums to triangulate than indices or the memory (base/memory.hpp) hold.
 MinkowskiSum minkowski_sum(const Balls& a, const Balls& b, const MinkowskiSumOptions& options = {},
                            Monitor& monitor = no_monitor(), const SolidComparisons& of = {});
 

@@ -21,7 +21,7 @@ struct LocalFeatureSize {
   Out<geometry::LocalFeatureSize> size;
 
   static void declare(NodeDecl<LocalFeatureSize>& d) {
-    d.id("LocalFeatureSize", 3).summary("Estimate at every sample how far the medial axis is.");
+    d.id("LocalFeatureSize", 4).summary("Estimate at every sample how far the medial axis is.");
     d.doc(
         "D^ of every sample: the distance to the nearest pole of all samples, inner or outer. For an "
         "r-sample "
@@ -47,7 +47,9 @@ struct LocalFeatureSize {
         .doc(
             "polar balls that were kept, inner and outer: D^ is then the distance to the nearest of their "
             "centres, "
-            "and the poles do not count; the bounds above hold for all poles only");
+            "and the poles do not count; the bounds above hold for all poles only, and the result says that "
+            "these "
+            "are fewer");
     d.input("axes", &LocalFeatureSize::axes)
         .optional()
         .doc("medial axes (node MedialAxis) of the union of the inner and of that of the outer balls");

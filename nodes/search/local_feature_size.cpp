@@ -46,7 +46,9 @@ LocalFeatureSize local_feature_size(const PointSet& sample, const PoleSet& poles
                          " samples, but there are " + std::to_string(n),
                      "connect the points that the poles were computed from");
   }
-  return local_feature_size(sample, PoleDistance(poles, monitor), monitor);
+  LocalFeatureSize size = local_feature_size(sample, PoleDistance(poles, monitor), monitor);
+  size.fewer_poles = 0;
+  return size;
 }
 
 LocalFeatureSize local_feature_size(const PointSet& sample, const PoleDistance& to_pole, Monitor& monitor) {
@@ -68,7 +70,9 @@ LocalFeatureSize local_feature_size(const PointSet& sample, const PoleDistance& 
   }
   std::vector<double> third = neighbor_distances(sample.points, 3, monitor);
   monitor.step(1);
-  return {sample.points, std::move(distances), std::move(third)};
+  LocalFeatureSize size{sample.points, std::move(distances), std::move(third)};
+  size.fewer_poles = 1;
+  return size;
 }
 
 }  // namespace ballflow::geometry

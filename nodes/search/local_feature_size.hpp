@@ -36,7 +36,8 @@ LocalFeatureSize local_feature_size(const PointSet& sample, const PoleSet& poles
                                     Monitor& monitor = no_monitor());
 
 /// The same of fewer poles: those of a pruned transform, which noise did not make (thesis, 4.9.3, third
-/// method). D^ is not smaller then, and the bounds of LocalFeatureSize do not hold. Throws InputError when
+/// method). D^ is not smaller then, the bounds of LocalFeatureSize do not hold, and the result says so
+/// (`fewer_poles`). Throws InputError when
 /// there are samples and no pole, and when a pole is where a sample is.
 LocalFeatureSize local_feature_size(const PointSet& sample, const PoleDistance& to_pole,
                                     Monitor& monitor = no_monitor());

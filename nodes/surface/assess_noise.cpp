@@ -66,13 +66,25 @@ void begin(NoiseReport& report, const PointSet& sample, const LocalFeatureSize& 
   }
 }
 
+/// Whether k neighbours lie within D^, by the median: on a surface the k-th is sqrt(k / 3) times as far as
+/// the third.
+bool fits(std::int32_t k, double coarseness) { return std::sqrt(k / 3.0) * coarseness <= 1; }
+
 /// Of denoised samples.
 void go_on(NoiseReport& report, const NoiseReport& before, const AssessNoiseOptions& options,
            Monitor& monitor) {
   report.level = before.level;
   report.neighbors = before.next;
   set(report, NoiseVerdict::noisy);
-  if (report.uncertain < options.certain) return set(report, NoiseVerdict::denoised);
+  if (report.uncertain < options.certain) {
+    const std::int32_t twice = 2 * report.neighbors;
+    if (before.neighbors == 0 && twice <= options.most_neighbors && fits(twice, report.coarseness)) {
+      report.next = twice;
+    } else {
+      set(report, NoiseVerdict::denoised);
+    }
+    return;
+  }
   const bool going_back = before.neighbors > before.next;
   const bool worse = before.neighbors > 0 && report.uncertain > before.uncertain;
   if (!going_back && worse) {

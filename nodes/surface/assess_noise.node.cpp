@@ -18,14 +18,17 @@ struct AssessNoise {
   AssessNoiseOptions options;
 
   static void declare(NodeDecl<AssessNoise>& d) {
-    d.id("AssessNoise", 1).summary("Decide whether a cloud is to be denoised, and with how many neighbours.");
+    d.id("AssessNoise", 2).summary("Decide whether a cloud is to be denoised, and with how many neighbours.");
     d.doc(
         "Noise as large as the spacing makes poles uncertain, and so do sharp edges and thin sheets. Where "
         "fewer than `suspect` of the poles are, nothing is done. Else the distances of neighbours from "
         "quadrics tell noise, which all samples have, from edges, which leave smooth patches without any. "
         "Noisy samples are denoised with `neighbors`, then with twice as many, until fewer than `certain` of "
-        "the poles are uncertain; where more neighbours leave more uncertain, with those before. In a loop "
-        "with Denoise: the summary field `done` "
+        "the poles are uncertain; where more neighbours leave more uncertain, with those before. Where the "
+        "first "
+        "number is enough and twice as many lie within D^, by the median, as in dense clouds, twice as many "
+        "are "
+        "taken unless poles are uncertain then. In a loop with Denoise: the summary field `done` "
         "ends it. Refuses poles that were not labelled by angles, and poles and sizes of other samples.");
     d.avoid_when("there are normals or a mesh: labels then do not depend on noise.");
     d.cites("amentakolluri2000", "labels by angles, which say how certain they are")

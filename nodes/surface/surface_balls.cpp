@@ -42,8 +42,8 @@ double proven_shrink(double radius) {
   return -1;
 }
 
-SurfaceRegime regime_of(double radius, double shrink, std::int64_t raised) {
-  if (raised > 0) return SurfaceRegime::heuristic;
+SurfaceRegime regime_of(double radius, double shrink, std::int64_t raised, bool fewer_poles) {
+  if (raised > 0 || fewer_poles) return SurfaceRegime::heuristic;
   if (shrink <= proven_shrink(radius)) return SurfaceRegime::proven;
   if (radius >= 0.24 && radius <= 0.56 && shrink <= 0.6 * radius) return SurfaceRegime::supported;
   return SurfaceRegime::heuristic;
@@ -90,7 +90,8 @@ SurfaceBalls surface_balls(const LocalFeatureSize& size, const SurfaceBallsOptio
   SurfaceBallsReport& report = result.report;
   report.radius = radius;
   report.shrink = options.shrink;
-  report.regime = static_cast<std::uint8_t>(regime_of(radius, options.shrink, report.raised));
+  report.regime =
+      static_cast<std::uint8_t>(regime_of(radius, options.shrink, report.raised, size.fewer_poles != 0));
   report.samples = static_cast<std::int64_t>(n);
   report.coarse = coarse_samples(size, monitor);
   result.balls = {size.points, std::move(radii), std::move(offsets), std::move(defining)};

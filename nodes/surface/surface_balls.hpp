@@ -29,8 +29,8 @@ struct SurfaceBalls {
 ///
 /// Theorem 4.14 as printed exchanges the balls of two samples. Repaired it proves, for sufficiently dense
 /// samples, rho_bar <= .020 at rho = .24, .0315 at .30, .025 at .35, and nothing above about .39; between
-/// these values the bound here is linear. Raised balls are outside of what it says, so the regime is then
-/// heuristic.
+/// these values the bound here is linear. Raised balls are outside of what it says, and so are radii from
+/// fewer poles than all: the regime is then heuristic.
 ///
 /// Warns where at more than half of the samples d3 is above 0.8 D^.
 ///

@@ -17,7 +17,7 @@ struct SurfaceBalls {
   SurfaceBallsOptions options;
 
   static void declare(NodeDecl<SurfaceBalls>& d) {
-    d.id("SurfaceBalls", 2).summary("Balls around samples, as large as the local feature size allows.");
+    d.id("SurfaceBalls", 3).summary("Balls around samples, as large as the local feature size allows.");
     d.doc(
         "Ball i has its centre at sample i and the radius rho D^, where D^ is the distance to the nearest "
         "pole, but at "
@@ -29,7 +29,9 @@ struct SurfaceBalls {
         "the union "
         "of the kept balls has the topology of the surface: proven for very small copies of dense samples, "
         "supported "
-        "by what the thesis reports, or experience (heuristic), as when balls were raised to the floor.");
+        "by what the thesis reports, or experience (heuristic), as when balls were raised to the floor or D^ "
+        "is from "
+        "fewer poles than all.");
     d.avoid_when("the inside of a solid is wanted: these balls follow the surface.");
     d.cites("kornberger2010", "4.5, 4.7 and 4.9.3; Theorem 4.14").cites("aichholzer2009", "surface balls");
     d.input("size", &SurfaceBalls::size).doc("D^ of n samples and the distances to their third neighbours");

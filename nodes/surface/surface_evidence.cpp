@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "base/disjoint_sets.hpp"
@@ -29,6 +30,47 @@ double area_of(const TriangleMesh& mesh, const Triangle& t) {
   return 0.5 * length(cross(b - a, c - a));
 }
 
+/// The largest set of balls that are `left` (1) and hang together: edges of the triangulation join them where
+/// they meet.
+void find_patch(const PowerDiagram& diagram, const std::vector<std::uint8_t>& left,
+                const std::vector<double>& distance, SurfaceEvidence& evidence) {
+  DisjointSets patches(left.size());
+  const auto meet = [&](std::size_t a, std::size_t b) {
+    return geometry::distance(diagram.centers[a], diagram.centers[b]) <=
+           std::sqrt(diagram.weights[a]) + std::sqrt(diagram.weights[b]);
+  };
+  for (const auto& cell : diagram.cells) {
+    for (std::size_t j = 0; j < 4; ++j) {
+      if (cell[j] < 0 || left[at(cell[j])] == 0) continue;
+      for (std::size_t k = j + 1; k < 4; ++k) {
+        if (cell[k] >= 0 && left[at(cell[k])] == 1 && meet(at(cell[j]), at(cell[k])))
+          patches.join(cell[j], cell[k]);
+      }
+    }
+  }
+  struct Patch {
+    std::int64_t size = 0;
+    double farthest = 0;
+    Vec3 place = {};
+  };
+  std::map<std::int32_t, Patch> by_root;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    if (left[i] == 0) continue;
+    Patch& patch = by_root[patches.root(static_cast<std::int32_t>(i))];
+    ++patch.size;
+    if (distance[i] > patch.farthest || (distance[i] == patch.farthest && diagram.centers[i] < patch.place)) {
+      patch.farthest = distance[i];
+      patch.place = diagram.centers[i];
+    }
+  }
+  Patch largest;
+  for (const auto& [root, patch] : by_root) {
+    if (std::tie(patch.size, patch.farthest) > std::tie(largest.size, largest.farthest)) largest = patch;
+  }
+  evidence.left_out_patch = largest.size;
+  evidence.patch_at = largest.place;
+}
+
 /// Balls that the surface passes by.
 void find_left_out(const PowerDiagram& diagram, const TriangleMesh& mesh, SurfaceEvidence& evidence,
                    Monitor& monitor) {
@@ -43,14 +85,17 @@ void find_left_out(const PowerDiagram& diagram, const TriangleMesh& mesh, Surfac
     }
   });
   double all = 0, missed = 0;
+  std::vector<std::uint8_t> left(n, 0);
   for (std::size_t i = 0; i < n; ++i) {
     all += diagram.weights[i];
     if (distance[i] * distance[i] <= diagram.weights[i]) continue;
+    left[i] = 1;
     ++evidence.left_out;
     missed += diagram.weights[i];
     evidence.farthest = std::max(evidence.farthest, distance[i]);
   }
   evidence.left_out_area = all > 0 ? missed / all : 0;
+  if (evidence.left_out > 0) find_patch(diagram, left, distance, evidence);
 }
 
 /// Gives every fan of triangles at a vertex a vertex of its own, and leaves out what no triangle has.

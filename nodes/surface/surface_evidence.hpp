@@ -23,6 +23,10 @@ struct SurfaceEvidence {
   // share of the squared radii of all, and how far the farthest is, in model units.
   std::int64_t left_out = 0;
   double left_out_area = 0, farthest = 0;
+  // The most of them that hang together, by balls that meet, and the centre of the one of these that is
+  // farthest from the surface. Samples that noise moved lie here and there; a part of the shape is a patch.
+  std::int64_t left_out_patch = 0;
+  Vec3 patch_at = {};
 };
 
 /// `spacing`: of the samples around each ball's centre, model units.

@@ -58,6 +58,15 @@ void check_closed(const SurfaceEvidence& evidence, const SurfaceMeshOptions& opt
                 percent(evidence.filled_area) + " of the area would close gaps");
 }
 
+// Fewer balls that the surface passes by are strays, and no part of the shape.
+constexpr std::int64_t few = 10;
+
+std::string text_of(Vec3 p) {
+  char text[96];
+  std::snprintf(text, sizeof text, "(%.6g, %.6g, %.6g)", p.x, p.y, p.z);
+  return text;
+}
+
 void warn(const SurfaceEvidence& evidence, const PowerDiagram& diagram, bool open, Monitor& monitor) {
   constexpr double many = 0.005, wide = 0.01, gaps = 0.5;
   const double balls = static_cast<double>(diagram.centers.size());
@@ -68,6 +77,13 @@ void warn(const SurfaceEvidence& evidence, const PowerDiagram& diagram, bool ope
                  percent(evidence.farthest / box) +
                  " of the box: sheets as thin as the spacing may be missing, and parts as near to each other "
                  "may have grown together");
+  }
+  if (evidence.left_out_patch >= few) {
+    monitor.warn(
+        "the surface passes by " + std::to_string(evidence.left_out_patch) +
+        " kept samples side by side, around " + text_of(evidence.patch_at) +
+        ": a part of the shape is missing there, or has grown together with another one, and the genus "
+        "may be wrong");
   }
   if (evidence.filled_area > gaps) {
     monitor.warn(percent(evidence.filled_area) +
@@ -114,8 +130,6 @@ SurfaceMesh surface_mesh(const PowerDiagram& diagram, const PoleSet& poles, cons
   } else {
     check_closed(evidence, options);
   }
-  // A few balls that are far away are strays, and not a part of the surface.
-  constexpr std::int64_t few = 10;
   refuse_beyond(evidence.left_out >= few ? evidence.left_out_area : 0, options.most_left_out,
                 percent(evidence.left_out_area) + " of the surface that the samples show would be missing");
   warn(evidence, diagram, options.open, monitor);
@@ -129,6 +143,8 @@ SurfaceMesh surface_mesh(const PowerDiagram& diagram, const PoleSet& poles, cons
   result.report.left_out = evidence.left_out;
   result.report.left_out_area = evidence.left_out_area;
   result.report.farthest = evidence.farthest;
+  result.report.left_out_patch = evidence.left_out_patch;
+  result.report.patch_at = evidence.patch_at;
   result.report.mixed_voids = labels.mixed_voids;
   result.report.split_vertices = boundary.split_vertices;
   result.report.midpoints = boundary.midpoints;

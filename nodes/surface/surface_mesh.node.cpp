@@ -21,7 +21,7 @@ struct SurfaceMesh {
   SurfaceMeshOptions options;
 
   static void declare(NodeDecl<SurfaceMesh>& d) {
-    d.id("SurfaceMesh", 2).summary("A closed surface through the kept samples of a cloud of points.");
+    d.id("SurfaceMesh", 3).summary("A closed surface through the kept samples of a cloud of points.");
     d.doc(
         "The triangles of the zero alpha-shape of surface balls have holes and edges of many triangles on "
         "real clouds. "

@@ -44,6 +44,7 @@ class ContextMonitor final : public geometry::Monitor {
     if (now - last > pause && last_note_.compare_exchange_strong(last, now)) context_.info(text);
   }
   void warn(const std::string& text) override { context_.warn(text); }
+  std::uint64_t memory_bytes() override { return context_.memory_bytes(); }
 
  private:
   const RunContext& context_;

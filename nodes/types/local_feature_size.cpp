@@ -27,6 +27,7 @@ std::string broken_invariant(const LocalFeatureSize& size) {
       return "r is from " + std::to_string(size.r_at_least) + " to " + std::to_string(size.r_at_most);
     }
   }
+  if (size.fewer_poles > 1) return "fewer_poles is " + std::to_string(size.fewer_poles) + ", not 0 or 1";
   if (!is_finite(size.r_at)) return "the point where r is attained is not finite";
   for (std::size_t i = 0; i < size.points.size(); ++i) {
     if (!(size.third_neighbors[i] > 0)) {

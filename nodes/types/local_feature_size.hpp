@@ -1,6 +1,7 @@
 // How near the medial axis is to the samples of a surface, estimated from poles.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "base/array.hpp"
@@ -14,6 +15,8 @@ namespace ballflow::geometry {
 ///   [0.817 D^, D^] (thesis, Corollary 4.12)
 /// - its distance to the medial axis of the surface, the local feature size lfs, is at most 1.2802 D^
 ///   (thesis, Lemma 4.8)
+/// Neither holds where D^ is the distance to the nearest of fewer places (`fewer_poles`): it may be any
+/// number of times as large then.
 struct LocalFeatureSize {
   static constexpr double discrete_at_least = 0.817;  // times D^
   static constexpr double at_most = 1.2802;           // times D^
@@ -33,6 +36,8 @@ struct LocalFeatureSize {
   // and a point of the mesh where at_least is attained. -1 without a mesh; at_most may be infinite.
   double r_at_least = -1, r_at_most = -1;
   Vec3 r_at = {};
+
+  std::uint8_t fewer_poles = 0;  // 1: D^ leaves out poles, as those of balls that pruning did not keep
 };
 
 /// Empty when the invariants above hold, else what is wrong and where.

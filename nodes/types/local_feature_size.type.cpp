@@ -10,7 +10,7 @@ namespace ballflow {
 
 void TypeOf<geometry::LocalFeatureSize>::declare(TypeDecl<geometry::LocalFeatureSize>& d) {
   using T = geometry::LocalFeatureSize;
-  d.id("LocalFeatureSize", 3)
+  d.id("LocalFeatureSize", 4)
       .doc("D^, the distance of every sample to the nearest pole: an estimate of the local feature size.");
   d.array("points", &T::points).length("n").doc("the sample, model units");
   d.array("pole_distances", &T::pole_distances)
@@ -31,11 +31,15 @@ void TypeOf<geometry::LocalFeatureSize>::declare(TypeDecl<geometry::LocalFeature
           "every point of the mesh has a sample within this times its distance to axis or poles; -1 without "
           "a mesh");
   d.scalar("r_at", &T::r_at).doc("the point of the mesh where r_at_least is attained");
+  d.scalar("fewer_poles", &T::fewer_poles)
+      .doc("1 where D^ is the distance to the nearest of fewer places than all poles: no bound holds then");
   d.summary("count", "number of samples");
   d.summary("min_pole_distance", "smallest D^; null without samples");
   d.summary("max_pole_distance", "largest D^");
-  d.summary("discrete_at_least", "times D^: lower bound of the distance to the discrete medial axis");
-  d.summary("at_most", "times D^: upper bound of the local feature size");
+  d.summary("discrete_at_least",
+            "times D^: lower bound of the distance to the discrete medial axis; null with fewer poles");
+  d.summary("at_most", "times D^: upper bound of the local feature size; null with fewer poles");
+  d.summary("fewer_poles", "whether D^ leaves out poles, as those of balls that pruning did not keep");
   d.summary("min_axis_distance", "smallest distance to the discrete medial axis; null without an axis");
   d.summary("max_axis_distance", "largest one");
   d.summary("min_axis_by_pole",
@@ -67,12 +71,15 @@ void TypeOf<geometry::LocalFeatureSize>::declare(TypeDecl<geometry::LocalFeature
     const auto known = [](double r) {
       return r >= 0 && std::isfinite(r) ? SummaryValue(r) : SummaryValue(nullptr);
     };
-    return Summary{{"count", v.points.size()},       {"min_pole_distance", smallest},
-                   {"max_pole_distance", largest},   {"discrete_at_least", T::discrete_at_least},
-                   {"at_most", T::at_most},          {"min_axis_distance", nearest},
-                   {"max_axis_distance", farthest},  {"min_axis_by_pole", least},
-                   {"max_axis_by_pole", most},       {"r_at_least", known(v.r_at_least)},
-                   {"r_at_most", known(v.r_at_most)}};
+    const auto bound = [&](double times) {
+      return v.fewer_poles == 0 ? SummaryValue(times) : SummaryValue(nullptr);
+    };
+    return Summary{{"count", v.points.size()},          {"min_pole_distance", smallest},
+                   {"max_pole_distance", largest},      {"discrete_at_least", bound(T::discrete_at_least)},
+                   {"at_most", bound(T::at_most)},      {"fewer_poles", v.fewer_poles != 0},
+                   {"min_axis_distance", nearest},      {"max_axis_distance", farthest},
+                   {"min_axis_by_pole", least},         {"max_axis_by_pole", most},
+                   {"r_at_least", known(v.r_at_least)}, {"r_at_most", known(v.r_at_most)}};
   });
   d.check([](const T& v) { return geometry::broken_invariant(v); });
 }

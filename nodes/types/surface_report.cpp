@@ -8,6 +8,9 @@ std::string broken_invariant(const SurfaceReport& report) {
   if (!is_share(report.filled_area) || !is_share(report.wide_area)) return "filled_area is no share";
   if (!is_share(report.left_out_area)) return "left_out_area is no share";
   if (!(report.farthest >= 0)) return "farthest is negative";
+  if (report.left_out_patch < 0 || report.left_out_patch > report.left_out)
+    return "left_out_patch is not from 0 to left_out";
+  if (!is_finite(report.patch_at)) return "patch_at is not finite";
   const std::size_t n = report.vertices.size(), m = report.triangles.size();
   if (report.vertex_balls.size() != n)
     return std::to_string(n) + " vertices but " + std::to_string(report.vertex_balls.size()) + " balls";

@@ -20,6 +20,8 @@ struct SurfaceReport {
   std::int64_t left_out = 0;         // balls that the surface passes by, farther than their radius
   double left_out_area = 0;          // their share of the squared radii of all
   double farthest = 0;               // how far the farthest of them is, model units
+  std::int64_t left_out_patch = 0;   // the most of them that hang together, by balls that meet
+  Vec3 patch_at = {};                // the one of these that is farthest from the surface
   std::int64_t mixed_voids = 0;      // parts of space with votes for both sides, which were cut
   std::int64_t split_vertices = 0;   // copies of vertices where sheets touch
   std::int64_t midpoints = 0;        // vertices that are no samples

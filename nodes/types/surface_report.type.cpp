@@ -8,7 +8,7 @@ namespace ballflow {
 
 void TypeOf<geometry::SurfaceReport>::declare(TypeDecl<geometry::SurfaceReport>& d) {
   using T = geometry::SurfaceReport;
-  d.id("SurfaceReport", 2).doc("How a surface was found among the cells of a triangulation.");
+  d.id("SurfaceReport", 3).doc("How a surface was found among the cells of a triangulation.");
   d.scalar("components", &T::components).doc("connected components");
   d.scalar("genus", &T::genus).doc("of all components together");
   d.scalar("boundary_loops", &T::boundary_loops).doc("0 for a closed surface");
@@ -18,6 +18,9 @@ void TypeOf<geometry::SurfaceReport>::declare(TypeDecl<geometry::SurfaceReport>&
   d.scalar("left_out", &T::left_out).doc("balls that the surface passes by, farther than their radius");
   d.scalar("left_out_area", &T::left_out_area).doc("their share of the squared radii of all");
   d.scalar("farthest", &T::farthest).doc("how far the farthest of them is, model units");
+  d.scalar("left_out_patch", &T::left_out_patch)
+      .doc("the most of them that hang together, by balls that meet");
+  d.scalar("patch_at", &T::patch_at).doc("the centre of the farthest of these, model units");
   d.scalar("mixed_voids", &T::mixed_voids).doc("parts of space with votes for both sides");
   d.scalar("split_vertices", &T::split_vertices).doc("copies of vertices where sheets touch");
   d.scalar("midpoints", &T::midpoints).doc("vertices that are no samples");
@@ -38,6 +41,8 @@ void TypeOf<geometry::SurfaceReport>::declare(TypeDecl<geometry::SurfaceReport>&
   d.summary("left_out", "kept samples that the surface passes by, farther than their ball");
   d.summary("left_out_area", "their share of the squared radii of all balls");
   d.summary("farthest", "how far the farthest of them is, model units");
+  d.summary("left_out_patch",
+            "the most of them that hang together: from ten on a part of the shape, not noise");
   d.summary("mixed_voids", "parts of space with votes for both sides, which were cut");
   d.summary("split_vertices", "copies of vertices where sheets touch");
   d.summary("midpoints", "vertices that are no samples");
@@ -54,6 +59,7 @@ void TypeOf<geometry::SurfaceReport>::declare(TypeDecl<geometry::SurfaceReport>&
                    {"left_out", v.left_out},
                    {"left_out_area", v.left_out_area},
                    {"farthest", v.farthest},
+                   {"left_out_patch", v.left_out_patch},
                    {"mixed_voids", v.mixed_voids},
                    {"split_vertices", v.split_vertices},
                    {"midpoints", v.midpoints},

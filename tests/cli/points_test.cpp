@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "process.hpp"
 #include "test_data.hpp"
@@ -57,6 +59,39 @@ TEST_F(CloudTest, is_not_labelled_by_a_mesh_that_is_not_there) {
   EXPECT_EQ(refused.exit_code, 3);
   EXPECT_NE(refused.err.find("the mesh has no triangles"), std::string::npos) << refused.err;
   EXPECT_NE(refused.err.find("method angle"), std::string::npos) << refused.err;
+}
+
+TEST_F(CloudTest, becomes_a_surface_and_three_reports_and_the_rest_where_it_is_asked_for) {
+  make_cloud();
+  const auto names = [&](const std::string& graph) {
+    const std::string out = folder.file(graph);
+    const auto made = run(graph, {"--set", "input=" + folder.file("points.xyz"), "--out", out});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    std::set<std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(out)) {
+      const std::string name = entry.path().filename().string();
+      if (name.front() != '.') files.insert(name);
+    }
+    return files;
+  };
+  EXPECT_EQ(names("reconstruct"),
+            (std::set<std::string>{"mesh.ply", "noise.json", "regime.json", "report.json"}));
+  const std::set<std::string> stages = names("surface_stages");
+  for (const char* name : {"mesh.ply", "report.json", "points.ply", "original.ply", "balls.ply"})
+    EXPECT_TRUE(stages.contains(name)) << name;
+}
+
+TEST_F(CloudTest, has_proven_radii_from_all_poles_only) {
+  make_cloud();
+  const auto regime = [&](const std::string& lfs_from) {
+    const auto made = run("reconstruct", {"--set", "input=" + folder.file("points.xyz"), "--set",
+                                          "radius=0.3", "--set", "shrink=0.03", "--set",
+                                          "lfs_from=" + lfs_from, "--report", folder.file("report.json")});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    return report("report.json").at("outputs").at("regime").at("summary").at("regime").get<std::string>();
+  };
+  EXPECT_EQ(regime("poles"), "proven");
+  EXPECT_EQ(regime("pruned"), "heuristic");
 }
 
 TEST_F(CloudTest, a_number_of_balls_that_cannot_be_reached_is_named) {

@@ -116,6 +116,15 @@ TEST_F(RunOptionsTest, a_small_memory_budget_runs_one_node_at_a_time_with_the_sa
   }
 }
 
+TEST_F(RunOptionsTest, a_matrix_larger_than_the_memory_budget_is_refused_with_both_sizes) {
+  const ProcessResult refused = run({"--memory", "20000"});
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_NE(refused.err.find("node matrix (CoverMatrix) failed"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("the run may use 0.02 MB"), std::string::npos) << refused.err;
+  const ProcessResult made = run({"--memory", "1M"});
+  EXPECT_EQ(made.exit_code, 0) << "a refusal is not remembered: " << made.err;
+}
+
 TEST_F(RunOptionsTest, json_lines_follow_their_schema) {
   const ProcessResult cold = run({"--json", "--quiet", "--out", folder.file("out")});
   const ProcessResult warm = run({"--json", "--quiet", "--force", "alpha"});

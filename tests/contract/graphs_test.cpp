@@ -148,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(FeatureSizes, EveryFeatureSize, testing::ValuesIn(names
 class EveryLfsFrom : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryLfsFrom, gives_a_surface_with_equal_digests_for_any_number_of_threads) {
-  const Dag dag = load_graph(test::source_file("graphs/reconstruct.json"), registry(),
+  const Dag dag = load_graph(test::source_file("graphs/surface_stages.json"), registry(),
                              {{"input", "shape:torus?n=2000"}, {"lfs_from", GetParam()}});
   const auto results = run_with_threads(dag, {1, 2, 4});
   ASSERT_EQ(results[0].status, ExitCode::ok);
@@ -164,7 +164,7 @@ INSTANTIATE_TEST_SUITE_P(Repairs, EveryRepair, testing::ValuesIn(names_in("graph
 class EveryRobustness : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryRobustness, makes_a_surface_possible_with_equal_digests_for_any_number_of_threads) {
-  const Dag dag = load_graph(test::source_file("graphs/reconstruct.json"), registry(),
+  const Dag dag = load_graph(test::source_file("graphs/surface_stages.json"), registry(),
                              {{"input", "shape:torus?n=1500"}, {"robustness", GetParam()}});
   EXPECT_TRUE(dag.warnings.empty());
   const auto results = run_with_threads(dag, {1, 4});

@@ -60,7 +60,7 @@ const std::vector<Case>& cases() {
        of_vertices({{"input", "shape:doubleTorus?n=4000"}, {"epsilon", "10"}, {"mode", "pole_bound"}}),
        kNoTopology},
       {"torus_feature_size", "local_feature_size", {{"input", "shape:torus?n=6000"}}, kNoTopology},
-      {"double_torus_surface", "reconstruct", {{"input", "shape:doubleTorus?n=4000"}}, kNoTopology},
+      {"double_torus_surface", "surface_stages", {{"input", "shape:doubleTorus?n=4000"}}, kNoTopology},
       {"torus_seed_polytope",
        "seed_polytope",
        {{"input", "shape:torus?n=2500"}, {"shrink", "0.6"}},

@@ -25,6 +25,7 @@ struct ExecutionRequest {
   std::map<std::string, ArtifactPtr> inputs;  // by port, connected ones only
   unsigned threads = 1;                       // that the node may use
   std::uint64_t seed = 0;
+  std::uint64_t memory_bytes = 0;  // budget of the run, so that a node that needs more can say so; 0: unknown
   // All three may be called from any thread, until the execution ends. Whoever is asked to stop does so soon.
   std::function<bool()> cancelled;
   std::function<void(double)> progress;  // 0 to 1

@@ -113,6 +113,9 @@ typedef struct bf_run {
   int (*output)(void* host, bf_bytes port, const bf_array* arrays, uint64_t array_count, bf_bytes summary);
   /* Why the node failed: one line with the cause, one line with what to do next (may be empty). */
   void (*fail)(void* host, bf_bytes cause, bf_bytes hint);
+  /* Bytes that all nodes of the run may take together; 0 when nobody has said. A node that learns it will
+   * need more should fail and say so before it takes them. Only that may depend on it: results must not. */
+  uint64_t memory_bytes;
 } bf_run;
 #define BF_RUN_MIN_SIZE BALLFLOW_SIZE_UP_TO(bf_run, fail)
 

@@ -113,6 +113,7 @@ ExecutionOutcome Runner::Impl::execute(std::size_t i, unsigned threads) {
   request.registry = &registry_;
   request.threads = threads;
   request.seed = options_.seed;
+  request.memory_bytes = options_.memory_bytes;
   for (const auto& [port, edge] : node.inputs) request.inputs[port] = ensure(edge, i);
   request.cancelled = [this] { return stopping(); };
   request.progress = [this, i](double fraction) { progress(i, fraction); };

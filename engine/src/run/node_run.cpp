@@ -55,6 +55,7 @@ class Host {
     run.struct_size = sizeof run;
     run.max_threads = request_.threads;
     run.seed = request_.seed;
+    run.memory_bytes = request_.memory_bytes;
     const std::string& id = request_.node->kind.type();
     run.node = {id.data(), id.size()};
     run.params = {params_.data(), params_.size()};
@@ -231,7 +232,7 @@ std::string wrong_input(const ExecutionRequest& request) {
     const TypeDeclaration* type = decl == nullptr ? nullptr : request.registry->type(decl->type);
     if (type == nullptr) continue;
     const std::string wrong = check_arrays(*type, *artifact);
-    if (!wrong.empty()) return "input \"" + port + "\" " + wrong;
+    if (!wrong.empty()) return ("input \"" + port).append("\" ").append(wrong);
   }
   return {};
 }

@@ -32,6 +32,11 @@ class RunContext {
   void info(std::string_view text) const { run_.log(run_.host, BF_INFO, {text.data(), text.size()}); }
   std::uint64_t seed() const { return run_.seed; }
   unsigned max_threads() const { return run_.max_threads; }
+  /// Bytes that the nodes of the run may take together; 0 when nobody has said, as an older engine does not.
+  /// Results must not depend on it: only whether the node fails, in time and with words.
+  std::uint64_t memory_bytes() const {
+    return run_.struct_size < BALLFLOW_SIZE_UP_TO(bf_run, memory_bytes) ? 0 : run_.memory_bytes;
+  }
   const bf_run& raw() const { return run_; }
 
  private:

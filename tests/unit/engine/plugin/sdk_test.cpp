@@ -197,6 +197,15 @@ TEST(sdk, reads_nothing_that_is_not_as_declared) {
   EXPECT_EQ(changed([](Arrays& a) { a.erase(a.begin() + 1); }), start + "\"points\" is missing");
 }
 
+TEST(sdk, knows_the_memory_of_the_run_where_the_engine_tells_it) {
+  bf_run raw{};
+  raw.struct_size = sizeof raw;
+  raw.memory_bytes = std::uint64_t{7} << 40;
+  EXPECT_EQ(RunContext(raw).memory_bytes(), raw.memory_bytes);
+  raw.struct_size = BF_RUN_MIN_SIZE;  // an older engine; what lies behind its struct is anything
+  EXPECT_EQ(RunContext(raw).memory_bytes(), 0u);
+}
+
 TEST(sdk, a_list_port_gets_its_artifacts_in_order) {
   const Clouds first({1, 2, 3}), second({4, 5, 6, 7, 8, 9});
   Host host;

@@ -89,6 +89,15 @@ TEST_F(BoundaryTest, an_array_that_a_node_hands_on_as_it_got_it_keeps_no_other_a
   EXPECT_EQ(std::vector<double>(values, values + 4), std::vector<double>(4, 2.5)) << "and it is still there";
 }
 
+TEST_F(BoundaryTest, a_node_is_told_the_memory_of_the_run) {
+  Dag dag;
+  const auto heavy = node(dag, "heavy", "Heavy");
+  ExecutionRequest request = request_for(dag.nodes[heavy], registry);
+  request.memory_bytes = std::uint64_t{5} << 32;
+  ASSERT_EQ(in_process_executor()->execute(request).status, ExecutionOutcome::Status::ok);
+  EXPECT_EQ(toy::granted, request.memory_bytes);
+}
+
 TEST_F(BoundaryTest, what_a_host_throws_goes_around_the_node) {
   Dag dag;
   const auto babble = node(dag, "babble", "Babble");

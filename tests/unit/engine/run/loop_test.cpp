@@ -100,6 +100,16 @@ TEST_F(LoopTest, counts_to_a_thousand_in_memory_and_stores_the_last_state_only) 
   EXPECT_EQ(blobs, 3u) << "zero, one, and the last state";
 }
 
+TEST_F(LoopTest, nodes_of_the_body_are_told_the_memory_of_the_run) {
+  const Dag dag = graph(step, "n.first == 2");
+  RunOptions options;
+  options.threads = 1;
+  options.memory_bytes = std::uint64_t{3} << 30;
+  Runner runner(dag, registry, Store::open({}), options, events);
+  ASSERT_EQ(runner.run().status, ExitCode::ok);
+  EXPECT_EQ(toy::granted, options.memory_bytes);
+}
+
 TEST_F(LoopTest, a_thousand_iterations_of_three_nodes_cost_less_than_50_ms) {
   const Dag dag = graph(R"({
     "inputs": { "n": { "type": "Numbers" }, "one": { "type": "Numbers" } },

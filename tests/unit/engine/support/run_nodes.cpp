@@ -153,6 +153,7 @@ struct Step {
     d.param("fail_at", &Step::fail_at).doc("fails where the first number is this");
   }
   void run(RunContext& context) {
+    granted = context.memory_bytes();
     std::vector<double> v(numbers->values.data(), numbers->values.data() + numbers->values.size());
     if (!v.empty() && v[0] == fail_at) throw NodeError("cannot count on", "start at another number");
     for (double& x : v) x += by;
@@ -229,7 +230,8 @@ struct Heavy {
     d.output("numbers", &Heavy::numbers).doc("a number");
     d.param("value", &Heavy::value).doc("the number");
   }
-  void run(RunContext&) {
+  void run(RunContext& context) {
+    granted = context.memory_bytes();
     ++counters.heavy;
     const int now = ++counters.heavy_now;
     int most = counters.heavy_most;

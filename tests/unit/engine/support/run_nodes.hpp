@@ -26,12 +26,14 @@ struct Counters {
 inline Counters counters;
 inline std::atomic<bool> steady_noise{false};  // Noisy gives the same again
 inline std::atomic<bool> holding{false};       // Slow and Heavy do not end while it is set, up to a minute
+inline std::atomic<std::uint64_t> granted{0};  // what Heavy and Step were told of the memory of the run
 /// FromFile calls it with the file before it reads.
 inline std::function<void(const std::string&)> before_reading;
 inline void reset() {
   counters.source = counters.add = counters.round = counters.slow = counters.fail = counters.noisy =
       counters.heavy = 0;
   counters.heavy_now = counters.heavy_most = 0;
+  granted = 0;
   holding = false;
 }
 

@@ -215,6 +215,24 @@ TEST(cover_matrix, refuses_a_matrix_above_the_limit_before_it_is_made) {
   EXPECT_EQ(error_of(balls, points, {.max_entries = entries}), "no error");
 }
 
+TEST(cover_matrix, refuses_a_matrix_larger_than_the_memory_it_is_granted) {
+  struct Grant final : Monitor {
+    std::uint64_t memory_bytes() override { return bytes; }
+    std::uint64_t bytes = 0;
+  } grant;
+  const auto [balls, points] = test::torus(500, 0.5, 5);
+  const std::uint64_t entries = cover_matrix(balls, points).cover.nnz();
+  grant.bytes = 4 * entries;
+  EXPECT_EQ(cover_matrix(balls, points, {}, grant).cover.nnz(), entries);
+  grant.bytes = 4 * entries - 1;
+  try {
+    cover_matrix(balls, points, {}, grant);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("; the run may use "), std::string::npos) << error.what();
+  }
+}
+
 TEST(cover_matrix, refuses_coordinates_whose_squares_overflow) {
   EXPECT_NE(error_of({{{1e200, 0, 0}}, {1}, {}, {}}, {{{0, 0, 0}}, {}}).find("ball 0"), std::string::npos);
   EXPECT_NE(error_of({{{0, 0, 0}}, {1e155}, {}, {}}, {{{0, 0, 0}}, {}}).find("ball 0"), std::string::npos);

@@ -5,41 +5,15 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <random>
 #include <tuple>
 #include <vector>
 
 #include "contribution_oracle.hpp"
-#include "measure/compare.hpp"
-#include "sample/generate.hpp"
+#include "minkowski_cases.hpp"
 
 namespace ballflow::geometry {
 namespace {
-
-using Numbers = std::vector<std::array<double, 4>>;  // x, y, z, r
-constexpr MinkowskiAlgorithm algorithms[] = {MinkowskiAlgorithm::filtered, MinkowskiAlgorithm::time,
-                                             MinkowskiAlgorithm::memory};
-
-Balls balls_of(const Numbers& numbers) {
-  std::vector<Vec3> centers;
-  std::vector<double> radii;
-  for (const auto& [x, y, z, r] : numbers) {
-    centers.push_back({x, y, z});
-    radii.push_back(r);
-  }
-  return {std::move(centers), std::move(radii), {}, {}};
-}
-
-Numbers numbers_of(const Balls& balls) {
-  Numbers numbers;
-  for (std::size_t i = 0; i < balls.size(); ++i) {
-    const Vec3 c = balls.centers[i];
-    numbers.push_back({c.x, c.y, c.z, balls.radii[i]});
-  }
-  return numbers;
-}
 
 /// By all algorithms, which agree.
 MinkowskiSum sum_of(const Balls& a, const Balls& b) {
@@ -61,43 +35,6 @@ MinkowskiSum sum_of(const Balls& a, const Balls& b) {
 Numbers sum_of(const Numbers& a, const Numbers& b) {
   return numbers_of(sum_of(balls_of(a), balls_of(b)).balls);
 }
-
-/// Random sets of every kind that has no general position.
-class RandomBalls {
- public:
-  explicit RandomBalls(std::uint64_t seed) : random_(seed) {}
-
-  double uniform(double low, double high) {
-    return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53;
-  }
-  std::uint64_t below(std::uint64_t n) { return random_() % n; }
-
-  /// Up to `most` balls.
-  Numbers operator()(std::size_t most) {
-    const std::uint64_t kind = below(8);
-    Numbers numbers(1 + below(most));
-    const Vec3 direction{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
-    for (auto& [x, y, z, r] : numbers) {
-      const bool grid = kind < 3;
-      const auto coordinate = [&] { return grid ? static_cast<double>(below(3)) : uniform(0, 2); };
-      x = coordinate(), y = coordinate(), z = coordinate();
-      r = grid ? 0.5 * static_cast<double>(below(5)) : uniform(0, 1);
-      if (kind == 1 || kind == 4) z = 1;  // in a plane
-      if (kind == 2) y = z = 0;           // on an axis
-      if (kind == 5) {                    // on a line, up to rounding
-        const double t = uniform(-1, 1);
-        x = t * direction.x, y = t * direction.y, z = t * direction.z;
-      }
-      if (kind == 6) x = y = z = 0;                 // concentric
-      if (kind == 7) r = below(2) == 0 ? 0 : 0.25;  // points among balls
-    }
-    if (below(4) == 0) numbers.push_back(numbers.front());  // equal balls
-    return numbers;
-  }
-
- private:
-  std::mt19937_64 random_;
-};
 
 double power(Vec3 p, const std::array<double, 4>& ball) {
   return squared_distance(p, {ball[0], ball[1], ball[2]}) - ball[3] * ball[3];
@@ -291,44 +228,6 @@ TEST(minkowski_sum, with_a_ball_at_the_origin_adds_its_radius) {
   }
 }
 
-TEST(minkowski_sum, refuses_balls_it_cannot_add) {
-  const Balls ball = balls_of({{0, 0, 0, 1}});
-  const auto message = [&](const Balls& a, const Balls& b) -> std::string {
-    try {
-      minkowski_sum(a, b);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
-  };
-  EXPECT_NE(message(ball, balls_of({{0, 0, 0, 1}, {0, 0, 0, -1}})).find("input b: ball 1"),
-            std::string::npos);
-  EXPECT_NE(message(balls_of({{NAN, 0, 0, 1}}), ball).find("input a"), std::string::npos);
-  EXPECT_NE(message(ball, balls_of({{0, 1e200, 0, 1}})).find("1e+200"), std::string::npos);
-  EXPECT_NE(message(ball, balls_of({{0, 0, 0, 1e-200}})).find("1e-200"), std::string::npos);
-  EXPECT_EQ(message(ball, balls_of({{1e150, 0, 0, 1e-150}})), "");
-}
-
-TEST(minkowski_sum, refuses_more_sums_than_it_can_hold_before_it_makes_them) {
-  const Balls many = balls_of(Numbers(50'000, {0, 0, 0, 1}));
-  try {
-    minkowski_sum(many, many, {.algorithm = MinkowskiAlgorithm::time});
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("2500000000 sums"), std::string::npos) << error.what();
-  }
-}
-
-TEST(minkowski_sum, streams_more_pairs_than_it_stores) {
-  // All but a few are inside others.
-  Numbers a{{0, 0, 0, 10}, {1, 0, 0, 10}};
-  for (int k = 0; k < 9'998; ++k) a.push_back({0.001 * (k % 200), 0.001 * (k / 200), 0, 0.5});
-  const MinkowskiSum sum = minkowski_sum(balls_of(a), balls_of(a));
-  EXPECT_EQ(sum.report.pairs, 100'000'000);
-  EXPECT_LT(sum.report.survivors, 100);
-  EXPECT_EQ(numbers_of(sum.balls), (Numbers{{0, 0, 0, 20}, {1, 0, 0, 20}, {2, 0, 0, 20}}));
-}
-
 TEST(minkowski_sum, does_not_depend_on_the_number_of_threads) {
   // So many pairs that they are looked at in parts, with ties: coordinates on a coarse grid.
   RandomBalls random(10);
@@ -366,113 +265,6 @@ TEST(minkowski_sum, needs_no_general_position_for_its_speed) {
   }
   const MinkowskiSum sum = sum_of(balls_of(a), balls_of({{0, 0, 0, 1}, {0, 0.5, 0, 0.5}}));
   EXPECT_EQ(sum.report.count, 512);
-}
-
-/// A finely triangulated sphere.
-TriangleMesh sphere(double radius) {
-  ShapeOptions options;
-  options.shape = Shape::sphere;
-  options.n = 1500;
-  options.R = radius;
-  return generate(options);
-}
-
-TEST(minkowski_error_bound, holds_for_the_surface_of_the_sum_of_two_solids) {
-  const TriangleMesh mesh_a = sphere(1), mesh_b = sphere(0.5);
-  const Balls a = balls_of({{0, 0, 0, 0.9}}), b = balls_of({{0, 0, 0, 0.45}});
-  const CompareOptions options{.spacing = 1};
-  const Comparison of_a = compare(a, {mesh_a.vertices, {}}, mesh_a, options),
-                   of_b = compare(b, {mesh_b.vertices, {}}, mesh_b, options);
-  // The surface of the sum of two concentric balls of 1 and 0.5 is 0.15 from the sum of balls of 0.9 and
-  // 0.45.
-  EXPECT_GE(error_bound(&of_a, &of_b), 0.15);
-  EXPECT_LE(error_bound(&of_a, &of_b), 0.15 + of_a.spacing + of_b.spacing);
-  // Without a comparison a solid is its balls.
-  EXPECT_GE(error_bound(&of_a, nullptr), 0.1);
-  EXPECT_LE(error_bound(nullptr, &of_b), 0.05 + of_b.spacing);
-  EXPECT_LT(error_bound(nullptr, nullptr), 0);
-}
-
-TEST(minkowski_error_bound, is_claimed_for_closed_meshes_only) {
-  const TriangleMesh closed = sphere(1);
-  std::vector<Triangle> most(closed.triangles.begin(), closed.triangles.end() - 1);
-  const TriangleMesh open{closed.vertices, std::move(most)};
-  const Balls ball = balls_of({{0, 0, 0, 0.9}});
-  const CompareOptions options{.spacing = 4};
-  const Comparison solid = compare(ball, {closed.vertices, {}}, closed, options),
-                   sheet = compare(ball, {open.vertices, {}}, open, options),
-                   cloud = compare(ball, {closed.vertices, {}}, {}, options);
-  const auto report = [&](const Comparison* a, const Comparison* b) {
-    const MinkowskiReport found = minkowski_sum(ball, ball, {}, no_monitor(), {.a = a, .b = b}).report;
-    EXPECT_EQ(broken_invariant(found), "");
-    EXPECT_EQ(found.error_bound, error_bound(a, b));
-    return found;
-  };
-  const auto why = [](const MinkowskiReport& r) {
-    return why_unbounded(static_cast<ComparedWith>(r.a_compared_with),
-                         static_cast<ComparedWith>(r.b_compared_with));
-  };
-  EXPECT_GE(report(&solid, &solid).error_bound, 0.2);
-  EXPECT_EQ(why(report(&solid, &solid)), "");
-  EXPECT_EQ(why(report(nullptr, &solid)), "");
-  for (const Comparison* other : {&sheet, &cloud}) {
-    EXPECT_EQ(report(other, nullptr).error_bound, -1);
-    EXPECT_EQ(report(other, &solid).error_bound, -1);
-    EXPECT_EQ(report(&solid, other).error_bound, -1);
-  }
-  EXPECT_EQ(why(report(&solid, &sheet)), "b was compared with an open mesh, which bounds no solid");
-  EXPECT_EQ(
-      why(report(&cloud, &sheet)),
-      "a was compared with a cloud of points, and b was compared with an open mesh, which bounds no solid");
-  EXPECT_EQ(why(report(nullptr, nullptr)), "neither a nor b was compared");
-}
-
-TEST(minkowski_error_bound, and_its_reason_exclude_each_other) {
-  MinkowskiReport report;
-  EXPECT_EQ(broken_invariant(report), "");
-  report.error_bound = 1;
-  EXPECT_NE(broken_invariant(report), "");
-  report.a_compared_with = static_cast<std::uint8_t>(ComparedWith::open_mesh);
-  EXPECT_NE(broken_invariant(report), "");
-  report.a_compared_with = static_cast<std::uint8_t>(ComparedWith::closed_mesh);
-  EXPECT_EQ(broken_invariant(report), "");
-  report.error_bound = -1;
-  EXPECT_NE(broken_invariant(report), "");
-}
-
-TEST(minkowski_sum, refuses_a_damaged_comparison) {
-  const Balls ball = balls_of({{0, 0, 0, 1}});
-  const Comparison damaged;  // compared with nothing
-  EXPECT_THROW(minkowski_sum(ball, ball, {}, no_monitor(), {.b = &damaged}), InputError);
-}
-
-TEST(minkowski_error_bound, does_not_count_how_far_balls_reach_beyond_the_surface) {
-  const TriangleMesh mesh = sphere(1);
-  const Comparison large = compare(balls_of({{0, 0, 0, 1.5}}), {mesh.vertices, {}}, mesh, {.spacing = 1});
-  EXPECT_LE(error_bound(&large, nullptr), large.spacing);
-}
-
-class CancelAfter final : public Monitor {
- public:
-  explicit CancelAfter(int looks) : left_(looks) {}
-  bool cancelled() override { return --left_ < 0; }
-
- private:
-  std::atomic<int> left_;
-};
-
-TEST(minkowski_sum, ends_when_it_is_cancelled) {
-  RandomBalls random(9);
-  Numbers a(300);
-  for (auto& ball : a)
-    ball = {random.uniform(0, 9), random.uniform(0, 9), random.uniform(0, 9), random.uniform(0, 1)};
-  for (const MinkowskiAlgorithm algorithm : algorithms) {
-    for (const int looks : {0, 1, 5, 20}) {
-      CancelAfter monitor(looks);
-      EXPECT_THROW(minkowski_sum(balls_of(a), balls_of(a), {.algorithm = algorithm}, monitor), Cancelled)
-          << static_cast<int>(algorithm) << " " << looks;
-    }
-  }
 }
 
 }  // namespace

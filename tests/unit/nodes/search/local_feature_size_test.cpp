@@ -123,6 +123,22 @@ TEST(local_feature_size, refuses_poles_of_another_sample) {
   }
 }
 
+TEST(local_feature_size, says_whether_it_is_the_distance_to_all_poles) {
+  const Mesh torus = test::torus(40, 20, 0.3);
+  const PoleSet poles = voronoi_poles(torus.points(), {});
+  const LocalFeatureSize all = local_feature_size(torus.points(), poles);
+  EXPECT_EQ(all.fewer_poles, 0);
+  const LocalFeatureSize one = local_feature_size(torus.points(), PoleDistance(std::vector<Vec3>{{0, 0, 0}}));
+  EXPECT_EQ(one.fewer_poles, 1);
+  EXPECT_EQ(broken_invariant(one), "");
+  // As that of a cloud with noise, D^ has no bound then.
+  const auto [low, high] = std::minmax_element(one.pole_distances.begin(), one.pole_distances.end());
+  EXPECT_GT(*low, 1.5 * *std::max_element(all.pole_distances.begin(), all.pole_distances.end())) << *high;
+  LocalFeatureSize damaged = one;
+  damaged.fewer_poles = 2;
+  EXPECT_NE(broken_invariant(damaged), "");
+}
+
 TEST(local_feature_size, reports_broken_invariants) {
   ASSERT_EQ(broken_invariant(LocalFeatureSize{{{0, 0, 0}}, {1}, {1}}), "");
   EXPECT_NE(broken_invariant(LocalFeatureSize{{{0, 0, 0}}, {0}, {1}}).find("point 0"), std::string::npos);

@@ -190,6 +190,37 @@ TEST(assess_noise, tries_more_neighbours_and_goes_back_to_the_best) {
   EXPECT_EQ(verdict(report), NoiseVerdict::denoised);
 }
 
+TEST(assess_noise, takes_twice_as_many_neighbours_of_a_dense_cloud_unless_they_are_too_many) {
+  Cloud cloud = cloud_of(with_noise({generate(parse_shape("torus?n=1500")).vertices, {}}, 1.5, 7));
+  const auto look = [&](double uncertain, double coarseness, const NoiseReport* before) {
+    std::vector<std::uint8_t> flags(cloud.poles.size(), 0);
+    std::fill_n(flags.begin(), static_cast<std::size_t>(uncertain * static_cast<double>(flags.size())), 1);
+    cloud.poles.uncertain = flags;
+    std::vector<double> third;
+    for (const double d : cloud.size.pole_distances) third.push_back(coarseness * d);
+    cloud.size.third_neighbors = third;
+    return assess(cloud, before);
+  };
+  const NoiseReport noisy = assess(cloud);
+  ASSERT_EQ(noisy.next, 24);
+  // 48 neighbours reach sqrt(48 / 3) = 4 times as far as the third.
+  const NoiseReport coarse = look(0.04, 0.26, &noisy), dense = look(0.04, 0.24, &noisy);
+  EXPECT_EQ(verdict(coarse), NoiseVerdict::denoised);
+  EXPECT_EQ(coarse.next, 0);
+  EXPECT_EQ(verdict(dense), NoiseVerdict::noisy);
+  ASSERT_EQ(dense.next, 48);
+  const NoiseReport taken = look(0.045, 0.1, &dense);
+  EXPECT_EQ(verdict(taken), NoiseVerdict::denoised);
+  EXPECT_EQ(taken.neighbors, 48);
+  EXPECT_EQ(taken.next, 0) << "once";
+  const NoiseReport too_many = look(0.06, 0.1, &dense);
+  ASSERT_EQ(too_many.next, 24);
+  const NoiseReport back = look(0.04, 0.24, &too_many);
+  EXPECT_EQ(verdict(back), NoiseVerdict::denoised);
+  EXPECT_EQ(back.neighbors, 24);
+  EXPECT_EQ(back.next, 0);
+}
+
 TEST(assess_noise, refuses_what_does_not_belong_together) {
   Cloud cloud = cloud_of({generate(parse_shape("torus?n=600")).vertices, {}});
   EXPECT_THROW(assess_noise({}, cloud.poles, cloud.size, nullptr, {}), InputError);

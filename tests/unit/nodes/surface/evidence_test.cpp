@@ -1,6 +1,7 @@
 // What is said against surfaces: gaps by formula, holes and sheets by shapes that have them, real clouds.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <set>
@@ -163,9 +164,39 @@ TEST(surface_mesh, strays_are_passed_by_and_told) {
     EXPECT_EQ(surface.report.genus, 0);
     EXPECT_EQ(surface.report.left_out, 3);
     EXPECT_GT(surface.report.farthest, 45);
+    EXPECT_LE(surface.report.left_out_patch, 3);
+    EXPECT_FALSE(warnings.tell("side by side"));
     EXPECT_LE(surface.mesh.vertices.size(), n);
     EXPECT_EQ(warnings.tell("passes by 3 of"), shrink > 0) << warnings.all;
   }
+}
+
+TEST(surface_mesh, a_part_of_the_shape_that_is_passed_by_is_told_and_where) {
+  // A sphere, and a sheet beside it that bounds nothing.
+  const test::Mesh sphere = test::sphere(4);
+  const double spacing = std::sqrt(4 * 3.14159 / static_cast<double>(sphere.vertices.size()));
+  std::mt19937 random(4);
+  std::vector<Vec3> points(sphere.vertices.begin(), sphere.vertices.end()), sheet;
+  for (int i = 0; i < 5; ++i) {
+    for (int j = 0; j < 5; ++j) {
+      const double bump = 0.1 * spacing * std::generate_canonical<double, 53>(random);
+      sheet.push_back({2 + spacing * i, spacing * j, bump});
+    }
+  }
+  points.insert(points.end(), sheet.begin(), sheet.end());
+  Cloud cloud = cloud_of({points, {}});
+  // As the spacing says: the nearest poles of what lies alone say nothing.
+  Balls small = cloud.kept;
+  small.radii = std::vector<double>(points.size(), 1.2 * spacing);
+  cloud.diagram = power_diagram(small, {}, no_monitor());
+  Warnings warnings;
+  const SurfaceMesh surface = surface_mesh(cloud.diagram, cloud.poles, cloud.points, {}, warnings);
+  EXPECT_EQ(broken_invariant(surface.report), "");
+  EXPECT_EQ(surface.report.left_out, 25);
+  EXPECT_EQ(surface.report.left_out_patch, 25);
+  EXPECT_NE(std::find(sheet.begin(), sheet.end(), surface.report.patch_at), sheet.end());
+  for (const Vec3& p : sheet) EXPECT_LE(length(p), length(surface.report.patch_at) + 1e-3);
+  EXPECT_TRUE(warnings.tell("passes by 25 kept samples side by side, around (2.")) << warnings.all;
 }
 
 TEST(surface_mesh, a_sheet_that_bounds_nothing_is_refused_as_open_too) {

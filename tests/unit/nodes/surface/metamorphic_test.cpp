@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -14,6 +15,9 @@
 
 #include "sample/generate.hpp"
 #include "search/surface_tree.hpp"
+#include "surface/assess_noise.hpp"
+#include "surface/denoise.hpp"
+#include "surface/restore_samples.hpp"
 #include "surface_fixture.hpp"
 
 namespace ballflow::geometry {
@@ -169,6 +173,41 @@ TEST(surfaces, of_a_third_fewer_samples_are_near_the_true_ones) {
     EXPECT_LT(mesh.vertices.size(), truth.vertices.size());
     EXPECT_LE(100 * farthest(mesh, truth, 20000) / box, most) << file;
     EXPECT_LE(100 * farthest(truth, mesh, 20000) / box, most) << file;
+  }
+}
+
+TEST(surfaces, of_a_dense_cloud_with_noise_are_near_the_true_one) {
+  // For tools/nightly: a minute.
+  if (std::getenv("BALLFLOW_TEST_LARGE") == nullptr) GTEST_SKIP() << "BALLFLOW_TEST_LARGE is not set";
+  const std::string file = test::data_file("generated/doubleTorus_85237.xyz.gz");
+  if (file.empty()) GTEST_SKIP() << "no test data";
+  const TriangleMesh truth = read_mesh_file(test::data_file("generated/doubleTorus.off.gz")).mesh;
+  const double box = bounding_box(truth.vertices.span()).longest_edge();
+  const PointSet clean{read_mesh_file(file).points.points, {}};
+  for (const unsigned seed : {1u, 2u}) {
+    SCOPED_TRACE(seed);
+    const PointSet noisy = with_noise(clean, 0.1, seed);
+    Cloud cloud = cloud_of(noisy, 0.3);
+    NoiseReport report = assess_noise(noisy, cloud.poles, cloud.size, nullptr, {});
+    while (report.next > 0) {
+      cloud = cloud_of(denoise(noisy, {.neighbors = report.next}).points, 0.3);
+      report = assess_noise(cloud.points, cloud.poles, cloud.size, &report, {});
+    }
+    EXPECT_EQ(report.neighbors, 48);
+    const SurfaceMesh surface = surface_of(cloud);
+    EXPECT_EQ(surface.report.genus, 2);
+    const TriangleMesh kept = restore_samples(surface.mesh, surface.report, cloud.kept, noisy);
+    const auto far = [&](const TriangleMesh& mesh) {
+      return 100 * std::max(farthest(mesh, truth, 20000), farthest(truth, mesh, 20000)) / box;
+    };
+    const double of_moved = far(surface.mesh), of_kept = far(kept);
+    RecordProperty("moved_" + std::to_string(seed), std::to_string(of_moved));
+    RecordProperty("kept_" + std::to_string(seed), std::to_string(of_kept));
+    EXPECT_LE(of_moved, 0.25);
+    double most = 0;
+    for (std::size_t v = 0; v < kept.vertices.size(); ++v)
+      most = std::max(most, distance(kept.vertices[v], surface.mesh.vertices[v]));
+    EXPECT_LE(of_kept, of_moved + 100 * most / box) << "as far as the vertex with the most noise";
   }
 }
 

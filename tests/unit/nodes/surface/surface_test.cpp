@@ -146,6 +146,16 @@ TEST(surface_balls, have_the_radii_that_the_formula_says) {
   EXPECT_THROW(surface_balls(size, {.radius = -1}), InputError);
 }
 
+TEST(surface_balls, of_fewer_poles_than_all_are_heuristic) {
+  LocalFeatureSize size{{{0, 0, 0}, {1, 0, 0}}, {0.5, 2.0}, {1.0, 1.0}};
+  size.fewer_poles = 1;
+  for (const auto& [radius, shrink] : {std::pair(0.30, 0.0315), std::pair(0.30, 0.04)}) {
+    const SurfaceBalls balls =
+        surface_balls(size, {.radius = radius, .shrink = shrink, .floor = 0, .smallest = 0});
+    EXPECT_EQ(static_cast<SurfaceRegime>(balls.report.regime), SurfaceRegime::heuristic) << shrink;
+  }
+}
+
 class Shapes : public testing::TestWithParam<std::pair<const char*, int>> {};
 
 TEST_P(Shapes, have_a_closed_surface_of_their_genus_through_their_samples) {

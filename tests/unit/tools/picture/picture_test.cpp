@@ -4,40 +4,21 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <ctime>
-#include <random>
 
-#include "ballflow/error.hpp"
-#include "png_decoder.hpp"
+#include "picture_cases.hpp"
 #include "show/picture/light.hpp"
 
 namespace ballflow::show {
 namespace {
 
 using geometry::Vec3;
-
-constexpr Colour white{255, 255, 255};
-
-Layer balls(const std::string& name, std::vector<Vec3> centers, std::vector<double> radii) {
-  Layer layer;
-  layer.name = name;
-  layer.shape = Shape::balls;
-  layer.vertices = std::move(centers);
-  layer.radii = std::move(radii);
-  return layer;
-}
-
-/// A square in the plane z, facing the front.
-Layer square(const std::string& name, double z, double half = 1) {
-  Layer layer;
-  layer.name = name;
-  layer.shape = Shape::triangles;
-  layer.vertices = std::vector<Vec3>{{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}};
-  layer.triangles = {{0, 1, 2}, {0, 2, 3}};
-  return layer;
-}
+using picture_cases::at;
+using picture_cases::balls;
+using picture_cases::front;
+using picture_cases::Rgba;
+using picture_cases::square;
+using picture_cases::white;
 
 /// Colours every element by its own category.
 void colour_by_number(Layer& layer) {
@@ -48,25 +29,6 @@ void colour_by_number(Layer& layer) {
   }
   layer.attributes = {number};
   layer.colour_by = "number";
-}
-
-PictureOptions front(int width, int height) {
-  PictureOptions options;
-  options.width = width;
-  options.height = height;
-  options.from = direction_named("front");
-  options.legend = false;
-  return options;
-}
-
-struct Rgba {
-  int r, g, b, a;
-  friend bool operator==(const Rgba&, const Rgba&) = default;
-};
-
-Rgba at(const Image& image, int x, int y) {
-  const std::size_t i = 4 * static_cast<std::size_t>(y * image.width + x);
-  return {image.rgba.at(i), image.rgba.at(i + 1), image.rgba.at(i + 2), image.rgba.at(i + 3)};
 }
 
 Light light_at(const Image& image, int x, int y) {
@@ -351,127 +313,6 @@ TEST(picture, equal_colours_mean_equal_values_in_scenes_side_by_side) {
   const Image image = draw_beside({{low}, {high}}, front(200, 100));
   shade(image, 50, 50, scalar(0));
   shade(image, 150, 50, scalar(1));
-}
-
-/// Everything at once: balls, points, lines, facets, sheets, a cut.
-std::vector<Layer> mixed_scene() {
-  std::mt19937 bits(21);
-  const auto number = [&bits](double from, double to) {
-    return from + (to - from) * (bits() / 4294967296.0);
-  };
-  std::vector<Vec3> centers, points;
-  std::vector<double> radii;
-  for (int i = 0; i < 400; ++i) {
-    centers.push_back({number(-1, 1), number(-1, 1), number(-1, 1)});
-    radii.push_back(number(0.02, 0.3));
-    points.push_back({number(-1.4, 1.4), number(-1.4, 1.4), number(-1.4, 1.4)});
-  }
-  Layer many = balls("balls", centers, radii);
-  many.attributes = {{"radius", "model units", {}, true, radii}};
-  many.colour_by = "radius";
-  Layer cloud;
-  cloud.name = "points";
-  cloud.vertices = points;
-  Layer lines = cloud;
-  lines.name = "lines";
-  lines.shape = Shape::segments;
-  for (std::uint32_t i = 0; i + 1 < 60; ++i) lines.segments.push_back({i, i + 1});
-  Layer sheet = square("sheet", 1.2, 1.3);
-  sheet.opacity = 0.3;
-  Layer shell = balls("shell", {{0, 0, 0}, {0.6, 0, 0}}, {1.2, 1});
-  shell.opacity = 0.2;
-  return {many, cloud, lines, sheet, shell};
-}
-
-TEST(picture, is_the_same_for_any_number_of_threads_and_again) {
-  PictureOptions options;
-  options.width = 211;
-  options.height = 157;
-  options.clips = {clip_named("x=80%")};
-  options.threads = 1;
-  const std::string expected = png(draw(mixed_scene(), options));
-  for (const unsigned threads : {1U, 2U, 4U}) {
-    options.threads = threads;
-    EXPECT_TRUE(png(draw(mixed_scene(), options)) == expected) << threads << " threads";
-  }
-  const test::DecodedPng decoded = test::decode_png(expected);
-  EXPECT_EQ(decoded.width, 211);
-  EXPECT_EQ(decoded.height, 157);
-}
-
-TEST(picture, says_that_there_is_nothing_to_draw_and_what_is_hidden) {
-  const auto message = [](const std::vector<Layer>& scene) {
-    try {
-      draw(scene);
-      return std::string("drawn");
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::usage);
-      return error.what() + (": " + error.hint());
-    }
-  };
-  EXPECT_EQ(message({}), "there is nothing to draw: all layers are empty");
-  Layer hidden = balls("outer poles", {{0, 0, 0}}, {1});
-  hidden.visible = false;
-  EXPECT_EQ(message({hidden, Layer{}}), "there is nothing to draw: these layers are hidden: outer poles");
-}
-
-TEST(picture, refuses_options_out_of_range) {
-  const Layer ball = balls("balls", {{0, 0, 0}}, {1});
-  EXPECT_THROW(draw({ball}, front(15, 100)), Error);
-  EXPECT_THROW(draw({ball}, front(100, 16385)), Error);
-  for (const char* clip : {"", "x", "x=", "x=a", "w=1", "x=1%%", "--x=1", "x:1", "x=nan", "x=1 "}) {
-    EXPECT_THROW(clip_named(clip), Error) << clip;
-  }
-}
-
-TEST(picture, ends_soon_when_cancelled) {
-  class Impatient final : public geometry::Monitor {
-   public:
-    bool cancelled() override { return ++looks > 5; }
-    std::atomic<int> looks = 0;
-  };
-  Impatient monitor;
-  PictureOptions options = front(4000, 4000);
-  EXPECT_THROW(draw(mixed_scene(), options, monitor), geometry::Cancelled);
-  EXPECT_LT(monitor.looks, 200);
-}
-
-TEST(picture, progress_ends_at_one) {
-  class Watching final : public geometry::Monitor {
-   public:
-    void progress(double fraction) override {
-      double before = most.load();
-      while (before < fraction && !most.compare_exchange_weak(before, fraction)) {
-      }
-    }
-    std::atomic<double> most = 0;
-  };
-  Watching monitor;
-  draw(mixed_scene(), front(150, 100), monitor);
-  EXPECT_EQ(monitor.most, 1);
-}
-
-TEST(picture, draws_ten_thousand_balls_within_ten_seconds_of_one_core) {
-  std::mt19937 bits(31);
-  const auto number = [&bits](double from, double to) {
-    return from + (to - from) * (bits() / 4294967296.0);
-  };
-  std::vector<Vec3> centers;
-  std::vector<double> radii;
-  while (centers.size() < 10000) {
-    const Vec3 p{number(-1, 1), number(-1, 1), number(-1, 1)};
-    if (geometry::squared_length(p) > 1) continue;
-    centers.push_back(p);
-    radii.push_back(number(0.01, 0.05));
-  }
-  const std::clock_t begin = std::clock();
-  const Image image = draw({balls("balls", centers, radii)}, front(1600, 1200));
-  const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-  RecordProperty("cpu_seconds", std::to_string(seconds));
-  EXPECT_FALSE(at(image, 800, 600) == (Rgba{255, 255, 255, 255}));
-#if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-  EXPECT_LT(seconds, 10);
-#endif
 }
 
 }  // namespace
