@@ -143,6 +143,7 @@ Enclosure verify_enclosure(const TriangleMesh& mesh, const Balls& balls,
   }
   if (diagram != nullptr) check_diagram_of(*diagram, balls);
   Enclosure result;
+  result.meant = options.on_open == OnOpen::expect ? 0 : 1;
   result.balls = static_cast<std::int64_t>(balls.size());
   result.triangles = static_cast<std::int64_t>(mesh.triangles.size());
   look_at_triangles(mesh, balls, monitor, result);

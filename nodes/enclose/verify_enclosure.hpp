@@ -12,6 +12,7 @@ namespace ballflow::geometry {
 enum class OnOpen {
   error,   // InputError with the first triangle or void
   report,  // listed in the result
+  expect,  // the same; of balls that are not meant to enclose
 };
 
 struct VerifyEnclosureOptions {

@@ -13,13 +13,24 @@ std::int64_t Enclosure::voids_that_matter() const {
   });
 }
 
+namespace {
+
+/// Two digits, at least those before the point.
+std::string percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, 100 * share >= 10 ? "%.0f" : "%.2g", 100 * share);
+  return text;
+}
+
+}  // namespace
+
 std::string describe(const Enclosure& e) {
   if (e.encloses()) return "everything inside the surface is in the balls";
   std::string text;
   if (!e.covers()) {
     char more[96];
-    std::snprintf(more, sizeof more, " (%.2g %% of the surface, up to %.3g away)",
-                  e.area > 0 ? 100 * e.open_area / e.area : 0.0, e.gap);
+    std::snprintf(more, sizeof more, " (%s %% of the surface, up to %.3g away)",
+                  percent(e.area > 0 ? e.open_area / e.area : 0).c_str(), e.gap);
     text = std::to_string(e.open_triangles.size()) + " of " + std::to_string(e.triangles) +
            " triangles are not covered" + (e.gap > 0 ? more : "");
   }
@@ -32,6 +43,7 @@ std::string describe(const Enclosure& e) {
 
 std::string broken_invariant(const Enclosure& e) {
   if (e.balls < 0 || e.triangles < 0 || e.pieces < 0) return "a number is negative";
+  if (e.meant > 1) return "meant is " + std::to_string(e.meant) + ", not 0 or 1";
   if (e.closed > 1) return "closed is " + std::to_string(e.closed) + ", not 0 or 1";
   if (e.open_points.size() != e.open_triangles.size() || e.open_why.size() != e.open_triangles.size())
     return "not as many points and reasons as open triangles";

@@ -27,6 +27,7 @@ struct Enclosure {
   std::int64_t balls = 0;
   std::int64_t triangles = 0;
   std::int64_t pieces = 0;  // of the triangles, each of which lies in one ball
+  std::uint8_t meant = 1;   // 0: the balls are not meant to enclose; of interest is how far they stand out
   std::uint8_t closed = 0;  // 1: every edge of the mesh has two triangles, or an even number, that cancel
 
   Array<std::int32_t> open_triangles;  // u, ascending: not proven to be covered
@@ -51,7 +52,7 @@ struct Enclosure {
   bool encloses() const { return covers() && voids_that_matter() == 0; }
 };
 
-/// "everything inside is in the balls", or what is not: "12 of 300 triangles are not covered (34 % of the
+/// "everything inside the surface is in the balls: proven", or what is not: "12 of 300 triangles are not covered (34 % of the
 /// surface, up to 0.018 away)", "1 void inside".
 std::string describe(const Enclosure& enclosure);
 

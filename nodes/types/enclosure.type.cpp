@@ -4,10 +4,11 @@ namespace ballflow {
 
 void TypeOf<geometry::Enclosure>::declare(TypeDecl<geometry::Enclosure>& d) {
   using T = geometry::Enclosure;
-  d.id("Enclosure", 1).doc("Whether a union of balls contains everything inside a surface.");
+  d.id("Enclosure", 2).doc("Whether a union of balls contains everything inside a surface.");
   d.scalar("balls", &T::balls).doc("number of balls");
   d.scalar("triangles", &T::triangles).doc("triangles of the mesh");
   d.scalar("pieces", &T::pieces).doc("parts of the triangles that lie in one ball each");
+  d.scalar("meant", &T::meant).doc("0 where the balls are not meant to enclose");
   d.scalar("closed", &T::closed).doc("1 where the mesh is closed, so that it has a solid inside");
   d.array("open_triangles", &T::open_triangles).length("u").doc("triangles not proven to be covered");
   d.array("open_points", &T::open_points).length("u").doc("a point of each, model units");
@@ -22,6 +23,7 @@ void TypeOf<geometry::Enclosure>::declare(TypeDecl<geometry::Enclosure>& d) {
   d.scalar("protrusion", &T::protrusion)
       .doc("no point of the balls is farther from the solid, or from an open mesh; model units");
   d.summary("encloses", "everything that the mesh separates from infinity is in the balls: proven");
+  d.summary("meant", "whether the balls are meant to enclose");
   d.summary("words", "the same in words, or what is not").summary("balls", "number of balls");
   d.summary("triangles", "triangles of the mesh").summary("open_triangles", "those not proven to be covered");
   d.summary("open_share", "about which part of the surface is in no ball");
@@ -31,6 +33,7 @@ void TypeOf<geometry::Enclosure>::declare(TypeDecl<geometry::Enclosure>& d) {
   d.summary("pieces", "parts of the triangles that lie in one ball each");
   d.summarize([](const T& v) {
     return Summary{{"encloses", v.encloses()},
+                   {"meant", v.meant != 0},
                    {"words", geometry::describe(v)},
                    {"balls", v.balls},
                    {"triangles", v.triangles},

@@ -1,6 +1,7 @@
 // Every artifact type of ballflow; the families' own libraries declare nodes only.
 #include <ballflow/sdk/library.hpp>
 
+#include "types/enclosure_fit_type.hpp"
 #include "types/enclosure_type.hpp"
 #include "types/power_diagram_type.hpp"
 #include "types/robot_type.hpp"
@@ -8,9 +9,10 @@
 
 using namespace ballflow::geometry;
 
-BALLFLOW_PLUGIN("types", "0.1.0", ballflow::node_entries<>(),
-                (ballflow::type_entries<
-                    Balls, Bisection, Comparison, CoverCheck, CoverState, Enclosure, Growth, LocalFeatureSize,
-                    MassProperties, MedialAxis, MeshReport, MinkowskiReport, NoiseReport, PointSet, PoleSet,
-                    PowerDiagram, Refinement, Robot, RobotSpheres, SampleAssignment, SimplicialComplex,
-                    SurfaceBallsReport, SurfaceReport, TopologyCheck, TopologyTable, TriangleMesh>()))
+BALLFLOW_PLUGIN(
+    "types", "0.1.0", ballflow::node_entries<>(),
+    (ballflow::type_entries<BallCounts, Balls, Bisection, Comparison, CoverCheck, CoverState, Enclosure,
+                            EnclosureFit, Growth, LocalFeatureSize, MassProperties, MedialAxis, MeshReport,
+                            MinkowskiReport, NoiseReport, PointSet, PoleSet, PowerDiagram, Refinement, Robot,
+                            RobotSpheres, SampleAssignment, SimplicialComplex, SurfaceBallsReport,
+                            SurfaceReport, TopologyCheck, TopologyTable, TriangleMesh>()))

@@ -226,10 +226,16 @@ std::string describe(const OutputEntry& output) {
       {"Enclosure",
        [](const Json& s) {
          const bool proven = s.at("encloses").get<bool>();
+         if (!proven && !s.at("meant").get<bool>()) {
+           return "no ball stands out by more than " + rounded(s, "protrusion") + "; " + s.at("words").get<std::string>();
+         }
          return (proven ? "" : "NOT enclosed: ") + s.at("words").get<std::string>() +
                 (proven ? ": proven; they stand out by " : "; balls stand out by ") +
                 rounded(s, "protrusion") + " at most";
        }},
+      {"EnclosureFit", [](const Json& s) { return s.at("words").get<std::string>(); }},
+      {"BallCounts",
+       [](const Json& s) { return counted(s, "balls", "ball") + " for " + counted(s, "objects", "object"); }},
       {"MassProperties",
        [](const Json& s) {
          std::string text = "volume " + rounded(s, "volume");

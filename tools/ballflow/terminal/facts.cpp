@@ -71,6 +71,7 @@ class Facts {
   }
 
   void coverage() {
+    if (const OutputEntry* const fit = of_type("EnclosureFit")) facts_.push_back(describe(*fit));
     if (const OutputEntry* const enclosure = of_type("Enclosure")) facts_.push_back(describe(*enclosure));
     const OutputEntry* const check = of_type("CoverCheck");
     if (check == nullptr) return;
