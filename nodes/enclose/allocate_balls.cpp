@@ -87,7 +87,8 @@ BallCounts allocate_balls(std::span<const EnclosureFit> fits, const AllocateBall
 
 std::int64_t only_count(const BallCounts& counts) {
   if (counts.counts.size() != 1) {
-    throw InputError("count has the counts of " + std::to_string(counts.counts.size()) + " objects", "choose one by BallCount");
+    throw InputError("count has the counts of " + std::to_string(counts.counts.size()) + " objects",
+                     "choose one by BallCount");
   }
   return counts.counts[0];
 }

@@ -40,11 +40,14 @@ struct Demand {
   }
 };
 
-/// The largest ball around a centre that stands out by no more than allowed; none where the centre is outside.
+/// The largest ball around a centre that stands out by no more than allowed; none where the centre is
+/// outside.
 class Bound {
  public:
   Bound(const TriangleMesh& mesh, double within, Monitor& monitor)
-      : winding_(mesh, monitor), surface_(mesh, monitor), within_(within),
+      : winding_(mesh, monitor),
+        surface_(mesh, monitor),
+        within_(within),
         rounding_(1e-9 * bounding_box(mesh.vertices.span()).longest_edge()) {}
 
   const WindingNumber& winding() const { return winding_; }
@@ -68,14 +71,19 @@ using Words = std::vector<std::uint64_t>;
 class Search {
  public:
   Search(const Demand& demand, const Bound& bound, std::vector<FloatBall> candidates)
-      : demand_(demand), bound_(bound), candidates_(std::move(candidates)), words_(demand.points.size() / 64), counts_(demand.points.size(), 0) {
+      : demand_(demand),
+        bound_(bound),
+        candidates_(std::move(candidates)),
+        words_(demand.points.size() / 64),
+        counts_(demand.points.size(), 0) {
     for (const FloatBall& ball : candidates_) sets_.push_back(set_of(ball));
   }
 
   /// The candidates that cover most, one after another.
   void choose(std::size_t count) {
     std::vector<std::pair<float, std::size_t>> queue;
-    for (std::size_t c = 0; c < candidates_.size(); ++c) queue.emplace_back(gain(sets_[c]), candidates_.size() - c);
+    for (std::size_t c = 0; c < candidates_.size(); ++c)
+      queue.emplace_back(gain(sets_[c]), candidates_.size() - c);
     std::make_heap(queue.begin(), queue.end());
     while (chosen_.size() < count && !queue.empty()) {
       std::pop_heap(queue.begin(), queue.end());
@@ -96,7 +104,8 @@ class Search {
     }
   }
 
-  /// Every ball once: moved, or exchanged for a candidate, where that covers more. False when nothing changed.
+  /// Every ball once: moved, or exchanged for a candidate, where that covers more. False when nothing
+  /// changed.
   bool improve(Random& random, Monitor& monitor) {
     bool any = false;
     for (std::size_t i = 0; i < chosen_.size(); ++i) {
@@ -134,7 +143,8 @@ class Search {
     Words result(words_, 0);
     const Lanes x = all(ball.x), y = all(ball.y), z = all(ball.z), limit = all(ball.r * ball.r);
     for (std::size_t p = 0; p < demand_.points.size(); p += lanes)
-      result[p / 64] |= static_cast<std::uint64_t>(bits(demand_.points.squared_from(p, x, y, z) <= limit)) << (p % 64);
+      result[p / 64] |= static_cast<std::uint64_t>(bits(demand_.points.squared_from(p, x, y, z) <= limit))
+                        << (p % 64);
     return result;
   }
   /// The weight of points in the set that no ball holds.
@@ -162,8 +172,10 @@ class Search {
         const std::size_t p = 64 * w + static_cast<std::size_t>(bit);
         counts_[p] = static_cast<std::uint16_t>(counts_[p] + by);
         const std::uint64_t mask = std::uint64_t{1} << bit;
-        if (counts_[p] != 0) covered_[w] |= mask;
-        else covered_[w] &= ~mask;
+        if (counts_[p] != 0)
+          covered_[w] |= mask;
+        else
+          covered_[w] &= ~mask;
       }
     }
   }
@@ -172,12 +184,15 @@ class Search {
   FloatBall moved(FloatBall best, float& most, Random& random) const {
     const float scale = best.r;
     constexpr float coarse = 0.2F, fine = 0.01F;
-    for (float step = coarse * (0.75F + 0.5F * static_cast<float>(random.unit())); step > fine; step *= 0.5F) {
+    for (float step = coarse * (0.75F + 0.5F * static_cast<float>(random.unit())); step > fine;
+         step *= 0.5F) {
       for (bool better = true; better;) {
         better = false;
         for (int direction = 0; direction < 6; ++direction) {
           FloatBall tried = best;
-          (direction / 2 == 0 ? tried.x : direction / 2 == 1 ? tried.y : tried.z) += (direction % 2 == 0 ? step : -step) * scale;
+          (direction / 2 == 0   ? tried.x
+           : direction / 2 == 1 ? tried.y
+                                : tried.z) += (direction % 2 == 0 ? step : -step) * scale;
           const std::optional<double> r = bound_.radius({tried.x, tried.y, tried.z});
           if (!r) continue;
           tried.r = static_cast<float>(*r);
@@ -207,10 +222,13 @@ void check(const TriangleMesh& mesh, const BoundedBallsOptions& options) {
   if (const std::string broken = broken_invariant(mesh); !broken.empty())
     throw InputError("the mesh is damaged: " + broken, "repair the mesh, or read it again");
   if (mesh.triangles.empty())
-    throw InputError("there are no triangles, so nothing is inside", "give a mesh; clouds of points become one by graphs/reconstruct.json");
-  if (options.balls < 1) throw InputError("balls is " + std::to_string(options.balls), "ask for one ball at least");
+    throw InputError("there are no triangles, so nothing is inside",
+                     "give a mesh; clouds of points become one by graphs/reconstruct.json");
+  if (options.balls < 1)
+    throw InputError("balls is " + std::to_string(options.balls), "ask for one ball at least");
   if (!(options.within >= 0))
-    throw InputError("balls would have to stand out by " + std::to_string(options.within), "give a distance of 0 or more");
+    throw InputError("balls would have to stand out by " + std::to_string(options.within),
+                     "give a distance of 0 or more");
 }
 
 Demand demand_of(const SurfacePatches& patches, const OutsidePoints& lattice, BallGoal goal) {
@@ -240,14 +258,17 @@ BoundedBalls bounded_balls(const TriangleMesh& mesh, const BoundedBallsOptions& 
   PartMonitor reading(monitor, 0, 0.1), seeding(monitor, 0.1, 0.3), searching(monitor, 0.3, 1);
   const Bound bound(turned, flat ? 0 : options.within / frame.size(), reading);
   if (!bound.winding().chain().closed() || flat) {
-    throw InputError("nothing is inside: " + (flat ? std::string("all points of the mesh are one") : why_not_closed(bound.winding().chain(), turned)),
+    throw InputError("nothing is inside: " + (flat ? std::string("all points of the mesh are one")
+                                                   : why_not_closed(bound.winding().chain(), turned)),
                      "close the mesh, or wrap it: node Wrap; EncloseBalls takes it as it is");
   }
   const double area = surface_area(vertices, mesh.triangles.span());
-  const SurfacePatches patches = surface_patches(vertices, mesh.triangles.span(), std::max(1.9 * std::sqrt(area / 6000), 0.004));
+  const SurfacePatches patches =
+      surface_patches(vertices, mesh.triangles.span(), std::max(1.9 * std::sqrt(area / 6000), 0.004));
   constexpr double pi = 3.14159265358979323846;
   const double radius = std::max(std::sqrt(area / (pi * static_cast<double>(options.balls))), 0.01);
-  const OutsidePoints lattice = outside_points(turned, {.band = 1.2 * radius, .points = 20000, .inside = 20000}, reading);
+  const OutsidePoints lattice =
+      outside_points(turned, {.band = 1.2 * radius, .points = 20000, .inside = 20000}, reading);
   const Demand demand = demand_of(patches, lattice, options.goal);
 
   const BallCover cover(patches, {}, lattice);
@@ -292,7 +313,8 @@ BoundedBalls bounded_balls(const TriangleMesh& mesh, const BoundedBallsOptions& 
     result.fit.loss = search.uncovered() * size * size;
   } else {
     result.fit.kind = static_cast<std::uint8_t>(FitKind::uncovered_volume);
-    result.fit.loss = search.uncovered() / std::max<double>(1, static_cast<double>(demand.count)) * result.fit.solid;
+    result.fit.loss =
+        search.uncovered() / std::max<double>(1, static_cast<double>(demand.count)) * result.fit.solid;
   }
   monitor.step(1);
   return result;

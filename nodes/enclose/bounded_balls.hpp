@@ -1,4 +1,5 @@
-// k balls that stay inside a solid, or stand out by no more than a given distance, and cover as much as they can.
+// k balls that stay inside a solid, or stand out by no more than a given distance, and cover as much as they
+// can.
 #pragma once
 
 #include <cstdint>
@@ -28,14 +29,16 @@ struct BoundedBalls {
   EnclosureFit fit;
 };
 
-/// A ball whose centre is inside, d away from the surface, and whose radius is d + within, has no point farther than `within` from
-/// the solid. Centres are those of largest inner balls, chosen greedily by what they cover, then moved and
-/// exchanged for others while that covers more. Radii are smaller than that by 1e-9 of the model, so that rounding makes none too
-/// large.
+/// A ball whose centre is inside, d away from the surface, and whose radius is d + within, has no point
+/// farther than `within` from the solid. Centres are those of largest inner balls, chosen greedily by what
+/// they cover, then moved and exchanged for others while that covers more. Radii are smaller than that by
+/// 1e-9 of the model, so that rounding makes none too large.
 ///
 /// Fewer balls are returned where more cover nothing.
 /// - Runs in one thread; the same bytes on every machine.
-/// - Throws InputError for inputs that break their invariants, meshes that are not closed, and negative numbers.
-BoundedBalls bounded_balls(const TriangleMesh& mesh, const BoundedBallsOptions& options, Monitor& monitor = no_monitor());
+/// - Throws InputError for inputs that break their invariants, meshes that are not closed, and negative
+/// numbers.
+BoundedBalls bounded_balls(const TriangleMesh& mesh, const BoundedBallsOptions& options,
+                           Monitor& monitor = no_monitor());
 
 }  // namespace ballflow::geometry

@@ -19,10 +19,16 @@ void declare_ports(NodeDecl<Node>& d) {
   d.library("CGAL", geometry::cgal_version());
   d.memory(64 << 20, 100);
   d.input("mesh", &Node::mesh).doc("a closed mesh, model units; orientation does not matter");
-  d.input("count", &Node::count).optional().doc("how many balls, in place of the parameter: one count, of AllocateBalls");
+  d.input("count", &Node::count)
+      .optional()
+      .doc("how many balls, in place of the parameter: one count, of AllocateBalls");
   d.output("balls", &Node::balls).doc("at most as many balls as wanted");
   d.output("fit", &Node::fit).doc("how many they are, and about how much they leave uncovered");
-  d.param("balls", &Node::options, &BoundedBallsOptions::balls).unit("balls").at_least(1).at_most(5000).doc("no more balls than this");
+  d.param("balls", &Node::options, &BoundedBallsOptions::balls)
+      .unit("balls")
+      .at_least(1)
+      .at_most(5000)
+      .doc("no more balls than this");
   d.param("rounds", &Node::options, &BoundedBallsOptions::rounds)
       .unit("rounds")
       .at_least(0)
@@ -52,10 +58,13 @@ struct InsideBalls {
   BoundedBallsOptions options;
 
   static void declare(NodeDecl<InsideBalls>& d) {
-    d.id("InsideBalls", 1).summary("A given number of balls inside a solid that cover as much of it as they can.");
+    d.id("InsideBalls", 1)
+        .summary("A given number of balls inside a solid that cover as much of it as they can.");
     d.doc(
-        "No point of a ball is outside: its centre is inside, and its radius at most the distance to the surface. Centres are those of "
-        "largest inner balls, chosen greedily, then moved and exchanged while that covers more. For distances that must not be too "
+        "No point of a ball is outside: its centre is inside, and its radius at most the distance to the "
+        "surface. Centres are those of "
+        "largest inner balls, chosen greedily, then moved and exchanged while that covers more. For "
+        "distances that must not be too "
         "large, or balls to be grasped or filled. Refuses meshes that are not closed.");
     d.avoid_when("nothing of the solid may be outside of the balls: EncloseBalls.");
     declare_ports(d);
@@ -79,15 +88,20 @@ struct ProtrudeBalls {
   Unit unit = Unit::percent;
 
   static void declare(NodeDecl<ProtrudeBalls>& d) {
-    d.id("ProtrudeBalls", 1).summary("A given number of balls that stand out of a solid by no more than a distance, and cover as much as they can.");
+    d.id("ProtrudeBalls", 1)
+        .summary(
+            "A given number of balls that stand out of a solid by no more than a distance, and cover as much "
+            "as they can.");
     d.doc(
-        "No point of a ball is farther than the distance from the solid: its centre is inside, and its radius the distance to the surface "
+        "No point of a ball is farther than the distance from the solid: its centre is inside, and its "
+        "radius the distance to the surface "
         "and that one. Chosen and moved as by InsideBalls. Refuses meshes that are not closed.");
     d.avoid_when("nothing of the solid may be outside of the balls: EncloseBalls.");
     declare_ports(d);
     d.param("within", &ProtrudeBalls::within).unit("see unit").at_least(0).doc("how far balls may stand out");
     d.choice("unit", &ProtrudeBalls::unit,
-             {{Unit::percent, "percent", "% of the longest bounding-box edge"}, {Unit::model, "model", "model units"}})
+             {{Unit::percent, "percent", "% of the longest bounding-box edge"},
+              {Unit::model, "model", "model units"}})
         .doc("what within is measured in");
     d.choice("goal", &ProtrudeBalls::options, &BoundedBallsOptions::goal,
              {{BallGoal::surface, "surface", "little of the surface is in no ball"},

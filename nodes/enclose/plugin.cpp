@@ -1,4 +1,5 @@
-// The family "enclose": balls that contain everything inside a surface, that are contained in it, or in between.
+// The family "enclose": balls that contain everything inside a surface, that are contained in it, or in
+// between.
 #include <ballflow/sdk/library.hpp>
 
 namespace ballflow::nodes {
@@ -14,5 +15,5 @@ BALLFLOW_PLUGIN("enclose", "0.1.0",
                 (std::vector<const bf_node*>{
                     ballflow::nodes::allocate_balls_entry(), ballflow::nodes::ball_count_entry(),
                     ballflow::nodes::enclose_balls_entry(), ballflow::nodes::inside_balls_entry(),
- ballflow::nodes::protrude_balls_entry(), ballflow::nodes::verify_enclosure_entry()}),
+                    ballflow::nodes::protrude_balls_entry(), ballflow::nodes::verify_enclosure_entry()}),
                 ballflow::type_entries<>())

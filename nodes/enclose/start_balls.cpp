@@ -130,7 +130,8 @@ void pad(FloatPoints& points) {
 
 }  // namespace
 
-std::vector<FloatBall> inner_balls(const BallCover& cover, float unit, std::size_t patches, Monitor& monitor) {
+std::vector<FloatBall> inner_balls(const BallCover& cover, float unit, std::size_t patches,
+                                   Monitor& monitor) {
   FloatPoints corners = some_corners(cover, 2500 + 2 * patches);
   pad(corners);
   const std::size_t all_patches = cover.surface_patches(), tries = std::min(all_patches, patches);
@@ -147,7 +148,8 @@ std::vector<FloatBall> inner_balls(const BallCover& cover, float unit, std::size
       if (!(r < 1)) continue;
       const FloatBall ball{p.x + r * m.x, p.y + r * m.y, p.z + r * m.z, r};
       float outside = 0;
-      cover.point_blocks().in_ball(ball, [&](std::size_t k) { outside += static_cast<float>(cover.weights()[k]); });
+      cover.point_blocks().in_ball(ball,
+                                   [&](std::size_t k) { outside += static_cast<float>(cover.weights()[k]); });
       if (outside * unit < 0.5F * (4.0F / 3 * pi) * r * r * r) balls.push_back(ball);
     }
   }

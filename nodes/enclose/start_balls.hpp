@@ -10,8 +10,8 @@
 
 namespace ballflow::geometry {
 
-/// The largest balls that touch the surface in the middle of a patch from one side and hold no corner, for `patches` of them. A
-/// ball is on the inner side when more of it is inside than not.
+/// The largest balls that touch the surface in the middle of a patch from one side and hold no corner, for
+/// `patches` of them. A ball is on the inner side when more of it is inside than not.
 /// - `unit`: volume of a lattice cell.
 std::vector<FloatBall> inner_balls(const BallCover& cover, float unit, std::size_t patches, Monitor& monitor);
 

@@ -47,7 +47,8 @@ struct VerifyEnclosure {
     d.choice("on_open", &VerifyEnclosure::options, &VerifyEnclosureOptions::on_open,
              {{OnOpen::error, "error", "the node fails and names the first place"},
               {OnOpen::report, "report", "the places are listed in the result, and a warning says so"},
-              {OnOpen::expect, "expect", "the places are listed; balls inside, or of bounded protrusion, have them"}})
+              {OnOpen::expect, "expect",
+               "the places are listed; balls inside, or of bounded protrusion, have them"}})
         .doc("what it means when not everything is enclosed");
   }
   void run(RunContext& context) {

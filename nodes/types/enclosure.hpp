@@ -52,8 +52,8 @@ struct Enclosure {
   bool encloses() const { return covers() && voids_that_matter() == 0; }
 };
 
-/// "everything inside the surface is in the balls: proven", or what is not: "12 of 300 triangles are not covered (34 % of the
-/// surface, up to 0.018 away)", "1 void inside".
+/// "everything inside the surface is in the balls: proven", or what is not: "12 of 300 triangles are not
+/// covered (34 % of the surface, up to 0.018 away)", "1 void inside".
 std::string describe(const Enclosure& enclosure);
 
 /// Empty when the invariants above hold, else what is wrong and where.

@@ -13,7 +13,8 @@ std::string describe(const EnclosureFit& fit) {
   } else if (kind == FitKind::uncovered_volume) {
     std::snprintf(text, sizeof text, ", about %.1f %% of the volume in none", 100 * fit.loss / fit.solid);
   } else if (fit.solid > 0) {
-    std::snprintf(text, sizeof text, ", about %.1f %% of the solid's volume outside", 100 * fit.outside / fit.solid);
+    std::snprintf(text, sizeof text, ", about %.1f %% of the solid's volume outside",
+                  100 * fit.outside / fit.solid);
   } else {
     std::snprintf(text, sizeof text, ", about %.4g of volume around a surface that holds none", fit.outside);
   }

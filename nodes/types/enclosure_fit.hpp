@@ -17,11 +17,11 @@ struct EnclosureFit {
   std::int64_t wanted = 0;  // balls at most
   std::int64_t balls = 0;   // used
   // Counted on a lattice, cubed model units: to about a percent of the difference.
-  double solid = 0;    // volume that the surface winds around; 0 for open sheets
-  double outside = 0;  // volume of the union that is not in the solid
-  double area = 0;     // of the triangles, squared model units
-  double loss = 0;     // what the search made small, by its kind
-  std::uint8_t kind = 0;  // FitKind
+  double solid = 0;               // volume that the surface winds around; 0 for open sheets
+  double outside = 0;             // volume of the union that is not in the solid
+  double area = 0;                // of the triangles, squared model units
+  double loss = 0;                // what the search made small, by its kind
+  std::uint8_t kind = 0;          // FitKind
   std::int64_t filled_voids = 0;  // that the first result had closed off inside, and got a point to cover
 };
 

@@ -12,16 +12,20 @@ void TypeOf<geometry::EnclosureFit>::declare(TypeDecl<geometry::EnclosureFit>& d
   d.scalar("outside", &T::outside).doc("volume of the union outside of it, likewise");
   d.scalar("area", &T::area).doc("of the triangles, squared model units");
   d.scalar("loss", &T::loss).doc("what the search made small, by its kind");
-  d.scalar("kind", &T::kind).doc("0 volume outside, 1 volume of the solid in no ball, 2 area of the surface in no ball");
+  d.scalar("kind", &T::kind)
+      .doc("0 volume outside, 1 volume of the solid in no ball, 2 area of the surface in no ball");
   d.scalar("filled_voids", &T::filled_voids).doc("voids of the first result that were filled");
-  d.summary("loss_share", "what the search made small, as a part of the solid's volume or of the surface; null without one");
+  d.summary(
+      "loss_share",
+      "what the search made small, as a part of the solid's volume or of the surface; null without one");
   d.summary("wanted", "balls at most").summary("balls", "balls that are used");
   d.summary("outside_share", "about what the balls waste, as a part of the solid's volume; null for sheets");
   d.summary("words", "the same in words").summary("solid", "volume of the solid, about; cubed model units");
   d.summary("outside", "volume of the union outside of it, about")
       .summary("filled_voids", "voids that were filled");
   d.summarize([](const T& v) {
-    const double whole = v.kind == static_cast<std::uint8_t>(geometry::FitKind::uncovered_area) ? v.area : v.solid;
+    const double whole =
+        v.kind == static_cast<std::uint8_t>(geometry::FitKind::uncovered_area) ? v.area : v.solid;
     return Summary{{"wanted", v.wanted},
                    {"balls", v.balls},
                    {"outside_share", v.solid > 0 ? SummaryValue(v.outside / v.solid) : SummaryValue(nullptr)},
