@@ -227,7 +227,8 @@ std::string describe(const OutputEntry& output) {
        [](const Json& s) {
          const bool proven = s.at("encloses").get<bool>();
          if (!proven && !s.at("meant").get<bool>()) {
-           return "no ball stands out by more than " + rounded(s, "protrusion") + "; " + s.at("words").get<std::string>();
+           return "no ball stands out by more than " + rounded(s, "protrusion") + "; " +
+                  s.at("words").get<std::string>();
          }
          return (proven ? "" : "NOT enclosed: ") + s.at("words").get<std::string>() +
                 (proven ? ": proven; they stand out by " : "; balls stand out by ") +
