@@ -233,8 +233,11 @@ std::vector<std::string> names_in(const std::string& text) {
 
 std::vector<LinkSpheres> parse_link_spheres(std::string_view content, const std::string& file,
                                             std::vector<std::string>& warnings) {
-  const std::size_t first = content.find_first_not_of(" \t\r\n");
-  if (first == std::string_view::npos) throw InputError(file + " has nothing in it", formats);
+  const auto next_text = [&](std::size_t from) { return content.find_first_not_of(" \t\r\n", from); };
+  std::size_t first = next_text(0);
+  while (first < content.size() && content[first] == '#')
+    first = next_text(std::min(content.find('\n', first), content.size()));
+  if (first >= content.size()) throw InputError(file + " has nothing in it", formats);
   std::vector<LinkSpheres> all;
   const std::string_view line = content.substr(first, content.find('\n', first) - first);
   if (content[first] == '<') {

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "process.hpp"
@@ -76,7 +78,7 @@ TEST_F(SpheresCli, a_changed_mesh_is_never_a_stale_hit) {
   write("s.csv", "link,x,y,z,radius\na,0.5,0.5,0.5,0.8661\nb.c,0,0,0,0.8661\n");
   const std::vector<std::string> command = {"spheres", folder.file("r.urdf"), "--check",
                                             folder.file("s.csv")};
-  EXPECT_NE(ballflow(command).out.find("2 links are enclosed by 2 spheres: proven"), std::string::npos);
+  EXPECT_NE(ballflow(command).out.find("2 links are enclosed by 2 spheres: proven;"), std::string::npos);
   const ProcessResult again = ballflow(command);
   EXPECT_NE(again.out.find("\n0 run, "), std::string::npos) << again.out;
   std::string longer = cube;
@@ -135,7 +137,6 @@ TEST_F(SpheresCli, what_is_wrong_is_said_before_anything_runs) {
   EXPECT_EQ(loop.exit_code, 2);
   EXPECT_NE(loop.err.find("the joints run in a circle"), std::string::npos) << loop.err;
   EXPECT_EQ(ballflow({"spheres", folder.file("none.urdf"), "--check", folder.file("s.csv")}).exit_code, 2);
-  EXPECT_EQ(ballflow({"spheres", "robot:arm"}).exit_code, 2);
   // What is read is not written over: neither the spheres nor a mesh that only the URDF names.
   write("gone.off", cube);
   for (const char* const name : {"s.csv", "r.urdf", "gone.off"}) {
@@ -144,6 +145,52 @@ TEST_F(SpheresCli, what_is_wrong_is_said_before_anything_runs) {
     EXPECT_EQ(over.exit_code, 2) << name;
     EXPECT_NE(over.err.find("nothing was run, and no file was changed"), std::string::npos) << over.err;
   }
+}
+
+TEST_F(SpheresCli, makes_spheres_that_contain_links_and_reads_them_back) {
+  const std::string out = folder.file("out");
+  const ProcessResult made =
+      ballflow({"spheres", "robot:arm", "--links", "hand,left_finger", "--balls", "12", "--effort", "low",
+                "--out", out, "--format", "urdf,srdf,curobo,xrdf,foam,mjcf,csv"});
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_NE(made.out.find("2 links are enclosed by 12 spheres: proven; "), std::string::npos) << made.out;
+  for (const char* const file :
+       {"spheres.urdf", "spheres.srdf", "spheres.yml", "spheres.xrdf", "spheres.json", "spheres.csv"}) {
+    const ProcessResult read =
+        ballflow({"spheres", "robot:arm", "--links", "hand,left_finger", "--check", out + "/" + file});
+    EXPECT_NE(read.out.find("2 links are enclosed by 12 spheres: proven"), std::string::npos)
+        << file << read.out << read.err;
+  }
+  EXPECT_TRUE(fs::exists(out + "/spheres.xml"));
+  // A number for one link computes that link alone.
+  const ProcessResult other =
+      ballflow({"spheres", "robot:arm", "--links", "hand,left_finger", "--balls", "14", "--effort", "low",
+                "--per-link", "hand=8,*finger=6", "--out", out});
+  EXPECT_NE(other.out.find("2 links are enclosed by 14 spheres"), std::string::npos)
+      << other.out << other.err;
+  const ProcessResult same =
+      ballflow({"spheres", "robot:arm", "--links", "hand,left_finger", "--balls", "15", "--effort", "low",
+                "--per-link", "hand=8,*finger=7", "--out", out, "--report", folder.file("report.json")});
+  EXPECT_EQ(same.exit_code, 0) << same.err;
+  std::map<std::string, std::string> status;
+  const auto report = nlohmann::json::parse(test::read_file(folder.file("report.json")));
+  for (const auto& [path, node] : report.at("nodes").items()) status[path] = node.at("status");
+  EXPECT_EQ(status["links[hand]/enclose/enclose"], "hit");
+  EXPECT_EQ(status["links[left_finger]/enclose/enclose"], "run");
+}
+
+TEST_F(SpheresCli, wrong_wishes_are_named) {
+  const auto refusal = [&](std::vector<std::string> more) {
+    std::vector<std::string> all = {"spheres", "robot:arm"};
+    all.insert(all.end(), more.begin(), more.end());
+    const ProcessResult result = ballflow(all);
+    EXPECT_EQ(result.exit_code, 2) << result.out;
+    return result.err;
+  };
+  EXPECT_NE(refusal({"--per-link", "hnd=3"}).find("did you mean \"hand\"?"), std::string::npos);
+  EXPECT_NE(refusal({"--per-link", "hand=0"}).find("is no number of balls"), std::string::npos);
+  EXPECT_NE(refusal({"--mode", "protrude", "--within", "-1mm"}).find("is no length"), std::string::npos);
+  EXPECT_NE(refusal({"--format", "obj"}).find("formats are urdf"), std::string::npos);
 }
 
 /// Spheres that programs ship, with the meshes of their links, as a URDF and a YAML file.

@@ -1,11 +1,17 @@
 // "ballflow spheres": collision spheres of robots and links. Reads which links there are, and runs a graph.
+#include <fnmatch.h>
+
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 
 #include "ballflow/output_file.hpp"
 #include "ballflow/text.hpp"
+#include "commands/output_folder.hpp"
 #include "commands/run_command.hpp"
+#include "export/export.hpp"
 #include "io/file_content.hpp"
 #include "report/spheres_page.hpp"
 #include "show/typed.hpp"
@@ -21,10 +27,14 @@ namespace fs = std::filesystem;
 struct SpheresArguments {
   RunArguments run;
   std::string file, check, page;
-  std::vector<std::string> links, packages;
+  std::vector<std::string> links, packages, per_link, formats;
+  std::string mode = "enclose", within, effort;
   bool visual = false;
   double buffer = 0;
+  std::uint64_t balls = 0, minimum = 4;
 };
+
+constexpr const char* usual_formats[] = {"urdf", "srdf", "curobo", "xrdf", "csv"};
 
 std::string joined(const std::vector<std::string>& texts, const char* separator) {
   std::string all;
@@ -183,10 +193,154 @@ int check(const Common& common, SpheresArguments arguments) {
   });
 }
 
+/// "5mm" in metres.
+double metres(const std::string& text) {
+  static const std::pair<const char*, double> units[] = {
+      {"um", 1e-6}, {"mm", 1e-3}, {"cm", 1e-2}, {"m", 1}, {"", 1}};
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  const std::string unit(error == std::errc() ? stop : end, end);
+  for (const auto& [name, factor] : units) {
+    if (error == std::errc() && unit == name && value >= 0 && value < 1e6) return factor * value;
+  }
+  throw Error(ExitCode::usage, "--within " + text + " is no length", "write it as 5mm or 0.005");
+}
+
+/// The numbers of balls that are fixed, for each link; empty when none is.
+std::string fixed_counts(const SpheresArguments& arguments, const std::vector<std::string>& links) {
+  if (arguments.per_link.empty()) return {};
+  std::vector<std::uint64_t> counts(links.size(), 0);
+  for (const std::string& text : arguments.per_link) {
+    const auto [pattern, number] = split_setting("--per-link", text, "hand=24");
+    std::uint64_t count = 0;
+    const auto [stop, error] = std::from_chars(number.data(), number.data() + number.size(), count);
+    if (error != std::errc() || stop != number.data() + number.size() || count == 0)
+      throw Error(ExitCode::usage, "--per-link " + text + ": \"" + number + "\" is no number of balls",
+                  "hand=24,*finger=8");
+    bool met = false;
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      if (fnmatch(pattern.c_str(), links[i].c_str(), 0) != 0) continue;
+      counts[i] = count;
+      met = true;
+    }
+    if (met) continue;
+    const std::string near = nearest(pattern, links);
+    throw Error(ExitCode::usage, "--per-link " + text + ": no link is called so",
+                near.empty() ? "links are " + joined(links, ", ") : "did you mean \"" + near + "\"?");
+  }
+  std::string all;
+  for (const std::uint64_t count : counts) all += (all.empty() ? "" : ",") + std::to_string(count);
+  return all;
+}
+
+/// What a file of the robot's balls is called.
+std::string sphere_file(const SpheresArguments& arguments, const std::string& format) {
+  return (fs::path(arguments.run.out) / ("spheres." + extension_of("RobotSpheres", format))).string();
+}
+
+void check_formats(const std::vector<std::string>& formats) {
+  const std::vector<std::string> known = export_formats("RobotSpheres");
+  for (const std::string& format : formats) {
+    if (std::find(known.begin(), known.end(), format) == known.end())
+      throw Error(ExitCode::usage, "--format " + format + ": spheres of a robot are not written so",
+                  "formats are " + joined(known, ", "));
+  }
+}
+
+/// Balls for a mesh: graphs/enclose.json and its neighbours as they are.
+int make_for_mesh(const Common& common, SpheresArguments arguments) {
+  if (!arguments.links.empty() || !arguments.per_link.empty() || arguments.visual)
+    throw Error(ExitCode::usage,
+                arguments.file + " is a mesh: --links, --per-link and --visual are for robots",
+                "leave them out, or give a URDF");
+  GraphArguments& graph = arguments.run.graph;
+  graph.file = graph_file(arguments.mode + ".json");
+  graph.sets = {"input=" + arguments.file,
+                "balls=" + std::to_string(arguments.balls == 0 ? 20 : arguments.balls)};
+  if (arguments.mode == "protrude" && !arguments.within.empty())
+    graph.sets.insert(graph.sets.end(), {"unit=model", "within=" + Json(metres(arguments.within)).dump()});
+  if (arguments.mode == "enclose" && !arguments.effort.empty())
+    graph.sets.push_back("effort=" + arguments.effort);
+  for (const std::string& format : arguments.formats) arguments.run.formats.push_back("balls=" + format);
+  return run_graph(common, arguments.run);
+}
+
+int make(const Common& common, SpheresArguments arguments) {
+  std::vector<std::string> links;
+  try {
+    const std::optional<std::string> text = robot_text(common, arguments.file);
+    if (!text) return make_for_mesh(common, arguments);
+    links = links_of(arguments, *text);
+  } catch (const geometry::InputError& error) {
+    throw_usage(error);
+  }
+  if (arguments.formats.empty()) arguments.formats.assign(std::begin(usual_formats), std::end(usual_formats));
+  check_formats(arguments.formats);
+  const std::uint64_t balls = arguments.balls == 0 ? 20 * links.size() : arguments.balls;
+  GraphArguments& graph = arguments.run.graph;
+  graph.file = graph_file("robot_spheres.json");
+  graph.sets = {"robot=" + arguments.file,
+                "links=" + list_text(links),
+                "mode=" + arguments.mode,
+                "balls=" + std::to_string(balls),
+                "minimum=" + std::to_string(arguments.minimum),
+                "fixed=" + fixed_counts(arguments, links),
+                std::string("geometry=") + (arguments.visual ? "visual" : "collision"),
+                "packages=" + joined(arguments.packages, ":")};
+  if (arguments.mode == "protrude" && !arguments.within.empty()) {
+    const std::string within = Json(metres(arguments.within)).dump();
+    graph.sets.insert(graph.sets.end(), {"links.within=" + within, "curves.within=" + within});
+  }
+  if (arguments.mode == "enclose" && !arguments.effort.empty())
+    graph.sets.push_back("links.effort=" + arguments.effort);
+  const std::string out = std::exchange(arguments.run.out, std::string());  // files of links nobody asked for
+  SpheresArguments files = arguments;
+  files.run.out = out;
+  common.places->writes("--page", arguments.page);
+  if (!out.empty()) {
+    for (const std::string& format : arguments.formats)
+      common.places->writes("--format " + format, sphere_file(files, format));
+    prepare_folder(out);
+  }
+  arguments.run.table = false;
+  return run_graph(common, arguments.run, [&](const Dag& dag, const RunResult& result, const auto& load) {
+    report::SpheresCheck page;
+    page.robot = fs::path(arguments.file).filename().string();
+    page.spheres = "ballflow spheres, mode " + arguments.mode;
+    page.robot_digest = digest_of(*common.store(), arguments.file);
+    page.geometry = arguments.visual ? "visual" : "collision";
+    page.enclosing = arguments.mode == "enclose";
+    page.links = checks_of(dag, result, links, load);
+    page.version = BALLFLOW_VERSION;
+    const bool talk = !arguments.run.quiet && !arguments.run.json;
+    if (talk) {
+      tell_warnings(dag, result);
+      print_table(report::table(page));
+      std::printf("\n%s\n", printable(report::verdict(page)).c_str());
+    }
+    std::vector<std::string> written;
+    for (const DagOutput& output : dag.outputs) {
+      if (output.name != "spheres" || out.empty()) continue;
+      const ArtifactPtr artifact = load(output.from);
+      for (const std::string& format : arguments.formats) {
+        export_artifact(*artifact, sphere_file(files, format), format);
+        written.push_back(sphere_file(files, format));
+      }
+    }
+    if (!arguments.page.empty()) {
+      const bool markdown = arguments.page.ends_with(".md") || arguments.page.ends_with(".markdown");
+      write_atomically(arguments.page, markdown ? report::markdown_page(page) : report::html_page(page));
+      written.push_back(arguments.page);
+    }
+    for (const std::string& file : written) {
+      if (talk) std::printf("wrote %s\n", printable(file).c_str());
+    }
+  });
+}
+
 int spheres(const Common& common, const SpheresArguments& arguments) {
-  if (!arguments.check.empty()) return check(common, arguments);
-  throw Error(ExitCode::usage, "what to do with " + arguments.file + " is not said",
-              "--check SPHERES tells what spheres of another program leave out of it");
+  return arguments.check.empty() ? make(common, arguments) : check(common, arguments);
 }
 
 }  // namespace
@@ -204,6 +358,31 @@ void add_spheres(const Command& app, Common& common, Action& action) {
           "spheres to check: cuRobo YAML, XRDF, foam or ballpark JSON, URDF, SRDF, CSV (link,x,y,z,radius);\n"
           "for a mesh balls, as in \"graphs/enclosure.json\"")
       .type_name("SPHERES");
+  command.option("--balls", arguments->balls,
+                 "spheres of all links together (default: 20 a link); of a mesh (default: 20)");
+  command
+      .option("--mode", arguments->mode,
+              "enclose: everything is inside, proven; inside: nothing stands out; protrude: nothing farther "
+              "than --within")
+      .one_of({"enclose", "inside", "protrude"})
+      .shows_default();
+  command.option("--within", arguments->within, "of --mode protrude: 5mm, 0.005 (metres)")
+      .type_name("LENGTH");
+  command
+      .option("--per-link", arguments->per_link,
+              "fixed numbers of spheres, by names of links or patterns: 'hand=24,*finger=8'")
+      .type_name("NAME=N,NAME=N")
+      .delimiter(',');
+  command.option("--minimum", arguments->minimum, "spheres of each link at least").shows_default();
+  command.option("--effort", arguments->effort, "of --mode enclose: low, normal or high")
+      .one_of({"low", "normal", "high"});
+  command
+      .option("--format", arguments->formats,
+              "files of spheres in --out: urdf, srdf, curobo, xrdf, foam, mjcf, csv (default: all but foam "
+              "and mjcf);\n"
+              "of a mesh: csv, ply and others")
+      .type_name("NAME,NAME")
+      .delimiter(',');
   command.option("--page", arguments->page, "file that receives the verdict as a page: .html or .md")
       .type_name("FILE");
   command.option("--links", arguments->links, "names of the links; default: all that have a shape")
@@ -217,7 +396,7 @@ void add_spheres(const Command& app, Common& common, Action& action) {
   command.option("--buffer", arguments->buffer, "metres that are added to every radius").between(0.0, 1e6);
   command
       .option("--out", arguments->run.out,
-              "folder that receives the verdict of each link, its spheres and its mesh")
+              "folder that receives the spheres; of --check the verdict, spheres and mesh of each link")
       .type_name("DIR");
   command.option("--report", arguments->run.report, "file that receives the report of the run (JSON)")
       .type_name("FILE");
@@ -227,6 +406,10 @@ void add_spheres(const Command& app, Common& common, Action& action) {
   command.flag("--json", arguments->run.json, "write events as lines of JSON to the standard output");
   command.flag("--quiet", arguments->run.quiet, "print errors only");
   command.footer(
+      "  ballflow spheres robot.urdf --balls 220 --out spheres --page spheres.html\n"
+      "  ballflow spheres robot.urdf --per-link 'hand=24,*finger=8' --minimum 6 --format urdf,srdf --out "
+      "spheres\n"
+      "  ballflow spheres link.stl --balls 20 --mode protrude --within 5mm --out link\n"
       "  ballflow spheres robot.urdf --check spheres.yml --page check.html\n"
       "  ballflow spheres link.stl --check spheres.csv");
   command.callback([&common, &action, arguments] {

@@ -68,8 +68,8 @@ void export_artifact(const Artifact& artifact, const std::string& path, const st
   const std::vector<Format> formats = formats_of(artifact.type());
   auto found = std::find_if(formats.begin(), formats.end(), [&](const Format& f) { return f.name == name; });
   if (found == formats.end() && format.empty())
-    found =
-        std::find_if(formats.begin(), formats.end(), [&](const Format& f) { return f.extension == name; });
+    found = std::find_if(formats.begin(), formats.end(),
+                         [&](const Format& f) { return !name.empty() && f.extension == name; });
   if (found == formats.end()) {
     std::string all;
     for (const Format& f : formats) all += (all.empty() ? "" : ", ") + std::string(f.name);

@@ -39,23 +39,31 @@ std::string place(geometry::Vec3 p) {
 struct Totals {
   std::size_t enclosed = 0;
   std::int64_t balls = 0;
-  double area = 0, open_area = 0, gap = 0;
+  double area = 0, open_area = 0, gap = 0, protrusion = 0;
+  double volume = 0, solid_volume = 0;  // the latter 0 where one of the links has none
 };
 
 Totals totals(const SpheresCheck& check) {
   Totals all;
+  bool known = true;
   for (const LinkCheck& link : check.links) {
     all.enclosed += link.enclosure.encloses() ? 1 : 0;
     all.balls += link.enclosure.balls;
     all.area += link.enclosure.area;
     all.open_area += link.enclosure.open_area;
     all.gap = std::max(all.gap, link.enclosure.gap);
+    all.protrusion = std::max(all.protrusion, link.enclosure.protrusion);
+    all.volume += link.volume;
+    all.solid_volume += link.solid_volume;
+    known = known && link.solid_volume > 0;
   }
+  if (!known) all.solid_volume = 0;
   return all;
 }
 
-std::string verdict_of(const LinkCheck& link) {
+std::string verdict_of(const LinkCheck& link, bool enclosing) {
   if (link.enclosure.balls == 0) return "no spheres";
+  if (!enclosing) return link.enclosure.protrusion == 0 ? "nothing stands out" : "stand out: bounded";
   if (link.enclosure.encloses()) return "enclosed: proven";
   if (link.enclosure.covers()) return "void inside";
   return "not enclosed";
@@ -114,6 +122,10 @@ std::vector<std::string> places(const LinkCheck& link, std::size_t most) {
 
 constexpr std::size_t most_places = 5;
 
+std::string title(const SpheresCheck& check) {
+  return check.enclosing ? "Do the spheres contain the robot?" : "Spheres for the robot";
+}
+
 std::string counted_places(const LinkCheck& link) {
   const std::size_t open = link.enclosure.open_triangles.size();
   return std::to_string(open) + " of " + std::to_string(link.enclosure.triangles) +
@@ -132,13 +144,20 @@ std::string verdict(const SpheresCheck& check) {
   const std::string links =
       std::to_string(check.links.size()) + (check.links.size() == 1 ? " link" : " links");
   const std::string balls = std::to_string(all.balls) + (all.balls == 1 ? " sphere" : " spheres");
-  std::string line;
-  if (all.enclosed == check.links.size()) {
-    line = links + (check.links.size() == 1 ? " is" : " are") + " enclosed by " + balls + ": proven";
-  } else {
-    line = std::to_string(all.enclosed) + " of " + links + " enclosed by " + balls;
+  const bool one = check.links.size() == 1;
+  if (!check.enclosing) {
+    return balls + " for " + links + (all.protrusion == 0 ? ": nothing stands out" : ": they stand out by ") +
+           (all.protrusion == 0 ? "" : length(all.protrusion) + " at most") + "; " +
+           percent(all.area > 0 ? all.open_area / all.area : 0) + " of the surface is in none";
   }
-  if (all.enclosed < check.links.size() && all.area > 0)
+  if (all.enclosed == check.links.size()) {
+    std::string line = links + (one ? " is" : " are") + " enclosed by " + balls + ": proven";
+    if (all.solid_volume > 0)
+      line += "; " + percent(all.volume / all.solid_volume - 1) + " of the volume is outside";
+    return line;
+  }
+  std::string line = std::to_string(all.enclosed) + " of " + links + " enclosed by " + balls;
+  if (all.area > 0)
     line += "; " + percent(all.open_area / all.area) + " of the surface is outside, up to " + length(all.gap);
   return line;
 }
@@ -147,7 +166,7 @@ std::vector<std::vector<std::string>> table(const SpheresCheck& check) {
   std::vector<std::vector<std::string>> rows = {
       {"link", "spheres", "verdict", "surface outside", "farthest", "protrusion", "volume outside"}};
   for (const LinkCheck& link : check.links) {
-    rows.push_back({link.link, std::to_string(link.enclosure.balls), verdict_of(link),
+    rows.push_back({link.link, std::to_string(link.enclosure.balls), verdict_of(link, check.enclosing),
                     percent(open_share(link.enclosure)), length(link.enclosure.gap),
                     length(link.enclosure.protrusion), outside(link)});
   }
@@ -155,7 +174,7 @@ std::vector<std::vector<std::string>> table(const SpheresCheck& check) {
 }
 
 std::string markdown_page(const SpheresCheck& check) {
-  std::string page = "# Do the spheres contain the robot?\n\n" + verdict(check) + ".\n\n";
+  std::string page = "# " + title(check) + "\n\n" + verdict(check) + ".\n\n";
   for (const std::string& line : sources(check)) page += "- " + line + "\n";
   page += "\n";
   const auto rows = table(check);
@@ -168,7 +187,7 @@ std::string markdown_page(const SpheresCheck& check) {
   bool heading = false;
   for (const LinkCheck& link : check.links) {
     const std::vector<std::string> open = places(link, most_places);
-    if (open.empty()) continue;
+    if (open.empty() || !check.enclosing) continue;
     if (!heading) page += "\n## Where\n\nPoints in the frame of each link, metres.\n\n";
     heading = true;
     page += "- " + link.link + ": " + counted_places(link) + "\n";
@@ -185,7 +204,7 @@ std::string html_page(const SpheresCheck& check) {
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta name=\"viewport\" "
       "content=\"width=device-width\">\n<title>" +
       escaped(check.spheres) + " for " + escaped(check.robot) + "</title>\n<style>" + style_sheet() +
-      "</style></head><body>\n<h1>Do the spheres contain the robot?</h1>\n<p>" + escaped(verdict(check)) +
+      "</style></head><body>\n<h1>" + escaped(title(check)) + "</h1>\n<p>" + escaped(verdict(check)) +
       ".</p>\n<ul>";
   for (const std::string& line : sources(check)) page += "<li>" + escaped(line) + "</li>\n";
   page += "</ul>\n<table>\n";
@@ -200,7 +219,7 @@ std::string html_page(const SpheresCheck& check) {
   bool heading = false;
   for (const LinkCheck& link : check.links) {
     const std::vector<std::string> open = places(link, most_places);
-    if (open.empty()) continue;
+    if (open.empty() || !check.enclosing) continue;
     if (!heading) page += "<h2>Where</h2>\n<p>Points in the frame of each link, metres.</p>\n<ul>\n";
     heading = true;
     page += "<li>" + escaped(link.link + ": " + counted_places(link)) + "<ul>";

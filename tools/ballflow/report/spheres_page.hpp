@@ -20,6 +20,7 @@ struct SpheresCheck {
   std::string robot_digest, spheres_digest;  // SHA-256 of the contents; empty where there is no file
   std::string geometry;                      // "collision" or "visual"
   double buffer = 0;                         // metres, added to every radius
+  bool enclosing = true;                     // they are meant to contain the links
   std::vector<LinkCheck> links;
   std::string version;  // of the program
 };

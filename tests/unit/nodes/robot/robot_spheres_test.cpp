@@ -64,6 +64,7 @@ TEST(link_spheres, the_same_in_every_format) {
     return text;
   };
   EXPECT_EQ(shown(parse(lists)), two);
+  EXPECT_EQ(shown(parse("# spheres of links, by hand\n\n# a, b\n" + lists)), two);
   EXPECT_EQ(shown(parse("collision_spheres:\n" + indented("  "))), two);
   EXPECT_EQ(shown(parse("robot_cfg:\n  kinematics:\n    base_link: base\n    collision_spheres:\n" +
                         indented("      "))),
