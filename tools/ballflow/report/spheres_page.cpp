@@ -28,8 +28,9 @@ double open_share(const Enclosure& e) { return e.area > 0 ? e.open_area / e.area
 
 /// How much of the balls is outside of the link, by volumes; only where all of the link is inside.
 std::string outside(const LinkCheck& link) {
-  if (link.solid_volume <= 0 || !link.enclosure.encloses()) return "-";
-  return percent(std::max(0.0, link.volume / link.solid_volume - 1));
+  // A surface whose parts overlap, or are there twice, has more volume than it fills.
+  if (link.solid_volume <= 0 || link.volume < link.solid_volume || !link.enclosure.encloses()) return "-";
+  return percent(link.volume / link.solid_volume - 1);
 }
 
 std::string place(geometry::Vec3 p) {
@@ -55,7 +56,7 @@ Totals totals(const SpheresCheck& check) {
     all.protrusion = std::max(all.protrusion, link.enclosure.protrusion);
     all.volume += link.volume;
     all.solid_volume += link.solid_volume;
-    known = known && link.solid_volume > 0;
+    known = known && link.solid_volume > 0 && link.volume >= link.solid_volume;
   }
   if (!known) all.solid_volume = 0;
   return all;
