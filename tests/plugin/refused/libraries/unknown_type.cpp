@@ -4,7 +4,8 @@
 static const char text[] = R"({"id":"Lonely","version":1,"summary":"s","doc":"",
   "outputs":[{"name":"out","type":"Nowhere","type_version":1,"doc":"d"}]})";
 static const bf_node node = {
-    sizeof(bf_node), 0, {text, sizeof text - 1}, nullptr, [](void*, const bf_run*) -> int { return BF_OK; }};
+    sizeof(bf_node), 0, {text, sizeof text - 1}, nullptr, [](void*, const bf_run*) -> int { return BF_OK; },
+    nullptr};
 static const bf_node* const nodes[] = {&node};
 static const bf_plugin tables = {sizeof(bf_plugin),
                                  BALLFLOW_ABI_VERSION,
