@@ -23,6 +23,10 @@ namespace {
 
 constexpr std::size_t fewest_points = 2000;
 
+void look(Monitor& monitor) {
+  if (monitor.cancelled()) throw Cancelled();
+}
+
 /// What is to be covered: points that stand for a volume or an area.
 struct Demand {
   FloatPoints points;  // padded with points far away
@@ -77,13 +81,16 @@ using Words = std::vector<std::uint64_t>;
 
 class Search {
  public:
-  Search(const Demand& demand, const Bound& bound, std::vector<FloatBall> candidates)
+  Search(const Demand& demand, const Bound& bound, std::vector<FloatBall> candidates, Monitor& monitor)
       : demand_(demand),
         bound_(bound),
         candidates_(std::move(candidates)),
         words_(demand.points.size() / 64),
         counts_(demand.points.size(), 0) {
-    for (const FloatBall& ball : candidates_) sets_.push_back(set_of(ball));
+    for (const FloatBall& ball : candidates_) {
+      look(monitor);
+      sets_.push_back(set_of(ball));
+    }
   }
 
   /// The candidates that cover most, one after another.
@@ -116,7 +123,7 @@ class Search {
   bool improve(Random& random, Monitor& monitor) {
     bool any = false;
     for (std::size_t i = 0; i < chosen_.size(); ++i) {
-      monitor.step(0);
+      look(monitor);
       remove(i);
       FloatBall best = chosen_[i];
       float most = gain(chosen_sets_[i]);
@@ -282,6 +289,7 @@ BoundedBalls bounded_balls(const TriangleMesh& mesh, const BoundedBallsOptions& 
   std::vector<FloatBall> candidates;
   const std::size_t tries = std::min<std::size_t>(patches.corners.size(), 2500);
   for (const FloatBall& ball : inner_balls(cover, static_cast<float>(lattice.unit), tries, seeding)) {
+    look(seeding);
     const std::optional<double> r = bound.radius({ball.x, ball.y, ball.z});
     if (r) candidates.push_back({ball.x, ball.y, ball.z, static_cast<float>(*r)});
   }
@@ -290,7 +298,7 @@ BoundedBalls bounded_balls(const TriangleMesh& mesh, const BoundedBallsOptions& 
     for (const FloatBall& ball : candidates) demand.add({ball.x, ball.y, ball.z}, ball.r);
     demand.pad();
   }
-  Search search(demand, bound, std::move(candidates));
+  Search search(demand, bound, std::move(candidates), searching);
   search.choose(static_cast<std::size_t>(options.balls));
   Random random(static_cast<std::uint64_t>(options.seed));
   for (std::int64_t round = 0; round < options.rounds; ++round) {

@@ -64,6 +64,10 @@ void EnclosingSearch::changed(const FloatBall& where) {
   }
 }
 
+void EnclosingSearch::look() {
+  if (monitor_.cancelled()) throw Cancelled();
+}
+
 void EnclosingSearch::take(const std::vector<FloatBall>& balls) {
   for (std::size_t i = 0; i < cover_.places(); ++i) {
     if (cover_.place(i).used) drop(i);
@@ -156,7 +160,7 @@ bool EnclosingSearch::step(std::size_t i) {
 void EnclosingSearch::sweep(int most) {
   std::vector<std::size_t> order;
   for (int round = 0; round < most; ++round) {
-    monitor_.step(0);
+    look();
     const std::int64_t before = cover_.waste();
     order.clear();
     for (std::size_t i = 0; i < cover_.places(); ++i) {
@@ -164,6 +168,7 @@ void EnclosingSearch::sweep(int most) {
     }
     for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[below(random_, i)]);
     for (const std::size_t i : order) {
+      look();
       step(i);
       cover_.forget();
     }
@@ -281,10 +286,11 @@ bool EnclosingSearch::split(std::size_t i) {
 
 void EnclosingSearch::fill() {
   while (cover_.used() < cover_.places()) {
-    monitor_.step(0);
+    look();
     std::size_t best = cover_.places();
     for (std::size_t i = 0; i < cover_.places(); ++i) {
       if (!cover_.place(i).used) continue;
+      look();
       if (!splits_[i].known) plan_split(i);
       if (best == cover_.places() || splits_[i].gain > splits_[best].gain) best = i;
     }
@@ -302,6 +308,7 @@ void EnclosingSearch::fill() {
 }
 
 void EnclosingSearch::shift() {
+  look();
   const std::size_t i = below(random_, cover_.places());
   if (!cover_.place(i).used) return;
   cover_.only_in(i, only_);
@@ -379,7 +386,7 @@ bool EnclosingSearch::swap() {
   std::size_t removed = none, halved = none;
   for (std::size_t i = 0; i < cover_.places(); ++i) {
     if (!cover_.place(i).used) continue;
-    monitor_.step(0);
+    look();
     if (!removals_[i].known) plan_removal(i);
     if (!splits_[i].known) plan_split(i);
     if (removed == none || removals_[i].loss < removals_[removed].loss) removed = i;

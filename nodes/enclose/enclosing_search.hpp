@@ -49,6 +49,8 @@ class EnclosingSearch {
     std::int64_t loss = 0;
   };
 
+  /// Throws Cancelled when nobody wants the result any more.
+  void look();
   /// Replaces ball i by one that holds what only it covers, and wastes less; frees it when it is not needed.
   bool step(std::size_t i);
   void step_around(std::size_t i, std::size_t neighbors);

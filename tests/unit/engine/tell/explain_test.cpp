@@ -230,6 +230,7 @@ struct KeyMutationTest : ExplainTest {
                                : path == "format"                 ? "key format"
                                : path == "version"                ? "version"
                                : path.rfind("libraries.", 0) == 0 ? "library " + last
+                               : path.rfind("files.", 0) == 0     ? "file " + last
                                : path.rfind("inputs.", 0) == 0    ? "input "
                                                                   : path;
       EXPECT_NE(named[0].find(word), std::string::npos) << path << ": " << named[0];
