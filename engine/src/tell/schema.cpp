@@ -20,6 +20,12 @@ Json edge_schema(const std::string& doc) {
 }
 
 /// Accepts what ParamDecl::refuse accepts, and "${name}".
+/// Of a parameter of another graph: a value, or the entries of a list.
+Json value_or_list() {
+  return {{"type", {"number", "boolean", "string", "array"}},
+          {"items", {{"type", {"number", "boolean", "string"}}}}};
+}
+
 Json param_schema(const ParamDecl& param) {
   Json schema = Json::object();
   std::string description = param.doc;
@@ -128,7 +134,7 @@ Json any_node(const Registry& registry, Json& definitions) {
         {"params",
          {{"type", "object"},
           {"description", "values for the parameters of the subgraph"},
-          {"additionalProperties", {{"type", {"number", "boolean", "string", "array"}}}}}}}}};
+          {"additionalProperties", value_or_list()}}}}}};
   rules.push_back({{"if", {{"required", {"graph"}}}}, {"then", {{"$ref", "#/definitions/subgraph"}}}});
   definitions["loop"] = {
       {"title", "loop"},
@@ -152,7 +158,7 @@ Json any_node(const Registry& registry, Json& definitions) {
         {"params",
          {{"type", "object"},
           {"description", "values for the parameters of the body"},
-          {"additionalProperties", {{"type", {"number", "boolean", "string", "array"}}}}}}}}};
+          {"additionalProperties", value_or_list()}}}}}};
   for (const ParamDecl& param : loop_params())
     definitions["loop"]["properties"][param.name] = param_schema(param);
   rules.push_back({{"if", {{"required", {"loop"}}}}, {"then", {{"$ref", "#/definitions/loop"}}}});
@@ -191,7 +197,7 @@ Json any_node(const Registry& registry, Json& definitions) {
         {"params",
          {{"type", "object"},
           {"description", "values for the parameters of the body, the same for every entry"},
-          {"additionalProperties", {{"type", {"number", "boolean", "string", "array"}}}}}}}}};
+          {"additionalProperties", value_or_list()}}}}}};
   rules.push_back({{"if", {{"required", {"map"}}}}, {"then", {{"$ref", "#/definitions/map"}}}});
   Json properties = Json::object();
   if (!types.empty()) properties["type"] = {{"description", "node type"}, {"oneOf", std::move(types)}};
