@@ -39,12 +39,16 @@ void BallFit::Scene::clear(float cx, float cy, float cz, float within) {
   y = cy;
   z = cz;
   reach = within;
-  points.clear();
-  weights.clear();
+  size = 0;
+}
+
+void BallFit::Scene::grow() {
+  const std::size_t room = std::max<std::size_t>(1024, 2 * weights.size());
+  for (std::vector<float>* const values : {&points.x, &points.y, &points.z, &weights}) values->resize(room);
 }
 
 void BallFit::Scene::pad() {
-  while (points.size() % lanes != 0) add(x, y, z, 0);
+  while (size % lanes != 0) add(x, y, z, 0);
 }
 
 void BallFit::begin(float x, float y, float z, float reach, float width) {
@@ -71,7 +75,7 @@ void BallFit::narrow(const FloatBall& ball, float reach) {
   near_.clear(ball.x, ball.y, ball.z, reach);
   const Lanes cx = all(ball.x), cy = all(ball.y), cz = all(ball.z),
               limit = all((reach + width_) * (reach + width_));
-  for (std::size_t i = 0; i < from.points.size(); i += lanes) {
+  for (std::size_t i = 0; i < from.size; i += lanes) {
     for (unsigned in = bits(from.points.squared_from(i, cx, cy, cz) <= limit); in != 0; in &= in - 1) {
       const std::size_t n = i + static_cast<std::size_t>(std::countr_zero(in));
       near_.add(from.points.x[n], from.points.y[n], from.points.z[n], from.weights[n]);
@@ -98,7 +102,7 @@ float BallFit::value(const FloatBall& ball, const Scene& scene) const {
   const float slope = 0.5F / (ball.r * width_ + std::numeric_limits<float>::min());
   const Lanes slopes = all(slope), level = all(ball.r * ball.r * slope + 0.5F);
   Lanes total = all(0);
-  for (std::size_t i = 0; i < scene.points.size(); i += lanes) {
+  for (std::size_t i = 0; i < scene.size; i += lanes) {
     const Lanes share = level - slopes * scene.points.squared_from(i, cx, cy, cz);
     total += load(&scene.weights[i]) * less_of(one, greater_of(zero, share));
   }
@@ -109,7 +113,7 @@ float BallFit::weight_in(const FloatBall& ball) const {
   const Lanes cx = all(ball.x), cy = all(ball.y), cz = all(ball.z), limit = all(ball.r * ball.r),
               zero = all(0);
   Lanes total = all(0);
-  for (std::size_t i = 0; i < whole_.points.size(); i += lanes)
+  for (std::size_t i = 0; i < whole_.size; i += lanes)
     total += whole_.points.squared_from(i, cx, cy, cz) <= limit ? load(&whole_.weights[i]) : zero;
   return sum(total);
 }
@@ -117,7 +121,7 @@ float BallFit::weight_in(const FloatBall& ball) const {
 float BallFit::weight_in_either(const FloatBall& a, const FloatBall& b) const {
   const Lanes zero = all(0), ra = all(a.r * a.r), rb = all(b.r * b.r);
   Lanes total = all(0);
-  for (std::size_t i = 0; i < whole_.points.size(); i += lanes) {
+  for (std::size_t i = 0; i < whole_.size; i += lanes) {
     const Lanes weight = load(&whole_.weights[i]);
     const auto in_a = whole_.points.squared_from(i, all(a.x), all(a.y), all(a.z)) <= ra;
     const auto in_b = whole_.points.squared_from(i, all(b.x), all(b.y), all(b.z)) <= rb;

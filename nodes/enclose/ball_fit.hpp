@@ -36,14 +36,19 @@ class BallFit {
   /// What may be avoided by balls that keep within a distance of a centre.
   struct Scene {
     float x = 0, y = 0, z = 0, reach = 0;
+    std::size_t size = 0;  // of the arrays, which only grow
     FloatPoints points;
     std::vector<float> weights;
 
     void clear(float cx, float cy, float cz, float within);
     void add(float px, float py, float pz, float weight) {
-      points.push_back(px, py, pz);
-      weights.push_back(weight);
+      if (size == weights.size()) grow();
+      points.x[size] = px;
+      points.y[size] = py;
+      points.z[size] = pz;
+      weights[size++] = weight;
     }
+    void grow();
     void pad();
   };
 

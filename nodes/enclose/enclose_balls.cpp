@@ -117,12 +117,14 @@ class Problem {
   std::vector<Vec3> demanded_;  // points that have to be covered besides the surface
 };
 
-int rounds_of(EncloseEffort effort) {
-  switch (effort) {
+/// Many balls have fewer places left where a round gains.
+int rounds_of(const EncloseBallsOptions& options) {
+  constexpr std::int64_t many = 40;
+  switch (options.effort) {
     case EncloseEffort::low:
       return 0;
     case EncloseEffort::normal:
-      return 2;
+      return options.balls > many ? 1 : 2;
     case EncloseEffort::high:
       return 8;
   }
@@ -130,11 +132,13 @@ int rounds_of(EncloseEffort effort) {
 }
 
 /// All balls downhill at once; not kept when repairing what that leaves uncovered costs more than it gained.
-void descend(const Problem& problem, BallCover& cover, EnclosingSearch& search, Monitor& monitor) {
+void descend(const Problem& problem, BallCover& cover, EnclosingSearch& search, int steps, Monitor& monitor) {
+  SoftDescentOptions options;
+  options.steps = steps;
   const std::int64_t waste = cover.waste();
   const std::vector<FloatBall> before = search.balls();
   search.take(soft_descent(cover, problem.vertex_areas(), static_cast<float>(problem.outside().unit), before,
-                           {}, monitor));
+                           options, monitor));
   search.sweep(5);
   if (cover.waste() >= waste) search.take(before);
 }
@@ -148,11 +152,11 @@ std::vector<FloatBall> search_coarsely(const Problem& problem, const std::vector
                   : start);
   search.sweep(3);
   PartMonitor first(monitor, 0.1, 0.25), second(monitor, 0.25, 0.4);
-  descend(problem, cover, search, first);
+  descend(problem, cover, search, 250, first);
   search.fill();
-  descend(problem, cover, search, second);
+  descend(problem, cover, search, 250, second);
   search.fill();
-  const int rounds = rounds_of(options.effort);
+  const int rounds = rounds_of(options);
   for (int round = 0; round < rounds; ++round) {
     monitor.step(0.4 + 0.6 * round / rounds);
     for (std::size_t n = 0; n < 4 * cover.places(); ++n) search.shift();
@@ -162,7 +166,7 @@ std::vector<FloatBall> search_coarsely(const Problem& problem, const std::vector
     for (int n = 0; n < most_swaps && search.swap(); ++n) {
     }
     PartMonitor part(monitor, 0.4 + 0.6 * (round + 0.7) / rounds, 0.4 + 0.6 * (round + 1) / rounds);
-    descend(problem, cover, search, part);
+    descend(problem, cover, search, 120, part);
     search.fill();
   }
   search.sweep(5);

@@ -10,7 +10,11 @@
 
 namespace ballflow::geometry {
 
-enum class EncloseEffort { low, normal, high };  // no rounds of shifts and swaps, two, eight
+enum class EncloseEffort {
+  low,
+  normal,
+  high
+};  // no rounds of shifts and swaps, two (one beyond 40 balls), eight
 
 struct EncloseBallsOptions {
   std::int64_t balls = 20;

@@ -59,7 +59,7 @@ struct EncloseBalls {
     d.choice("effort", &EncloseBalls::options, &EncloseBallsOptions::effort,
              {{EncloseEffort::low, "low",
                "no rounds of shifts and swaps: half the time, some percent more outside"},
-              {EncloseEffort::normal, "normal", "two rounds"},
+              {EncloseEffort::normal, "normal", "two rounds, one beyond 40 balls"},
               {EncloseEffort::high, "high", "eight rounds: two to three times the time"}})
         .doc("how long the search goes on; it counts work, not time");
     d.param("seed", &EncloseBalls::options, &EncloseBallsOptions::seed)
