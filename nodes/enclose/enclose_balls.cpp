@@ -40,6 +40,14 @@ TriangleMesh without_strays(const TriangleMesh& mesh) {
   return {std::move(vertices), std::move(triangles)};
 }
 
+/// Rounded so that a model that was moved or scaled, and so has other last digits, is searched in the same
+/// way.
+constexpr double grid = 0x1p-22;
+Vec3 on_grid(Vec3 p) {
+  const auto rounded = [](double c) { return grid * std::round(c / grid); };
+  return {rounded(p.x), rounded(p.y), rounded(p.z)};
+}
+
 /// The mesh in the frame, and what the search looks at.
 class Problem {
  public:
@@ -47,7 +55,7 @@ class Problem {
       : frame_(mesh.vertices.span()), balls_(balls) {
     std::vector<Vec3> vertices;
     vertices.reserve(mesh.vertices.size());
-    for (const Vec3 p : mesh.vertices) vertices.push_back(frame_.into(p));
+    for (const Vec3 p : mesh.vertices) vertices.push_back(on_grid(frame_.into(p)));
     area_ = surface_area(vertices, mesh.triangles.span());
     longest_ = std::max(1.9 * std::sqrt(area_ / patches_wanted), 0.004);
     patches_ = surface_patches(vertices, mesh.triangles.span(), longest_);
@@ -59,7 +67,6 @@ class Problem {
 
   const GenericFrame& frame() const { return frame_; }
   const OutsidePoints& outside() const { return outside_; }
-  double area() const { return area_; }
   double longest_patch() const { return longest_; }
 
   BallCover cover() const {
@@ -196,14 +203,15 @@ std::vector<FloatBall> search_finely(Problem& problem, std::vector<FloatBall> ba
   return balls;
 }
 
-/// In model units. Radii a little larger, so that no point lies on several spheres and in no ball.
+/// In model units. Radii a little larger, so that no point lies on several spheres and in no ball; a point
+/// and where the grid moved it, half a diagonal of its cells away, are in the same balls.
 Balls out_of_frame(const GenericFrame& frame, const std::vector<FloatBall>& balls) {
   constexpr double larger = 1 + 2e-6;
   std::vector<Vec3> centers;
   std::vector<double> radii;
   for (const FloatBall& ball : balls) {
     centers.push_back(frame.out_of({ball.x, ball.y, ball.z}));
-    radii.push_back(larger * frame.size() * ball.r);
+    radii.push_back(larger * frame.size() * (ball.r + grid));
   }
   return {std::move(centers), std::move(radii), {}, {}};
 }
@@ -297,7 +305,7 @@ EnclosingBalls enclose_balls(const TriangleMesh& original, const EncloseBallsOpt
   result.fit.solid = static_cast<double>(problem.outside().solid) * unit;
   result.fit.outside *= unit;
   result.fit.loss = result.fit.outside;
-  result.fit.area = problem.area() * size * size;
+  result.fit.area = surface_area(mesh.vertices.span(), mesh.triangles.span());
   monitor.step(1);
   return result;
 }

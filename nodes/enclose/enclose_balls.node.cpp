@@ -49,7 +49,9 @@ struct EncloseBalls {
         .optional()
         .doc("how many balls, in place of the parameter: one count, of AllocateBalls");
     d.output("balls", &EncloseBalls::balls)
-        .doc("at most as many balls as wanted; radii are 2e-6 larger than found, against rounding");
+        .doc(
+            "at most as many balls as wanted; radii are 2e-6, and 2.4e-7 of the longest bounding-box edge, "
+            "larger than found, against rounding");
     d.output("fit", &EncloseBalls::fit).doc("how many they are, and about how much volume is outside");
     d.param("balls", &EncloseBalls::options, &EncloseBallsOptions::balls)
         .unit("balls")

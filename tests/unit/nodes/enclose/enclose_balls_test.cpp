@@ -177,7 +177,7 @@ TEST(enclose_balls, are_the_same_for_a_model_in_other_units_and_alike_elsewhere)
   const EnclosingBalls far = enclosed_by({shifted, mesh.triangles}, 10);
   EXPECT_EQ(found.balls.size(), far.balls.size());
   EXPECT_NEAR(far.fit.solid / found.fit.solid, 1e9, 1e7);
-  EXPECT_NEAR(far.fit.outside / found.fit.outside, 1e9, 1e8);  // coordinates are rounded, so another search
+  EXPECT_NEAR(far.fit.outside / found.fit.outside, 1e9, 1e7);
   expect_enclosed({shifted, mesh.triangles}, far.balls, "far away");
 }
 
