@@ -177,6 +177,9 @@ TEST_F(SpheresCli, makes_spheres_that_contain_links_and_reads_them_back) {
   for (const auto& [path, node] : report.at("nodes").items()) status[path] = node.at("status");
   EXPECT_EQ(status["links[hand]/enclose/enclose"], "hit");
   EXPECT_EQ(status["links[left_finger]/enclose/enclose"], "run");
+  // Where all numbers are fixed nothing is handed out, so no fits with many balls are made for that.
+  EXPECT_EQ(status.count("curves[hand]/with[1]/enclose"), 1U);
+  EXPECT_EQ(status.count("curves[hand]/with[64]/enclose"), 0U);
 }
 
 TEST_F(SpheresCli, wrong_wishes_are_named) {

@@ -234,6 +234,10 @@ std::string fixed_counts(const SpheresArguments& arguments, const std::vector<st
   return all;
 }
 
+bool all_fixed(const std::string& counts) {
+  return !counts.empty() && ("," + counts + ",").find(",0,") == std::string::npos;
+}
+
 /// What a file of the robot's balls is called.
 std::string sphere_file(const SpheresArguments& arguments, const std::string& format) {
   return (fs::path(arguments.run.out) / ("spheres." + extension_of("RobotSpheres", format))).string();
@@ -278,6 +282,7 @@ int make(const Common& common, SpheresArguments arguments) {
   if (arguments.formats.empty()) arguments.formats.assign(std::begin(usual_formats), std::end(usual_formats));
   check_formats(arguments.formats);
   const std::uint64_t balls = arguments.balls == 0 ? 20 * links.size() : arguments.balls;
+  const std::string fixed = fixed_counts(arguments, links);
   GraphArguments& graph = arguments.run.graph;
   graph.file = graph_file("robot_spheres.json");
   graph.sets = {"robot=" + arguments.file,
@@ -285,7 +290,7 @@ int make(const Common& common, SpheresArguments arguments) {
                 "mode=" + arguments.mode,
                 "balls=" + std::to_string(balls),
                 "minimum=" + std::to_string(arguments.minimum),
-                "fixed=" + fixed_counts(arguments, links),
+                "fixed=" + fixed,
                 std::string("geometry=") + (arguments.visual ? "visual" : "collision"),
                 "packages=" + joined(arguments.packages, ":")};
   if (arguments.mode == "protrude" && !arguments.within.empty()) {
@@ -294,6 +299,8 @@ int make(const Common& common, SpheresArguments arguments) {
   }
   if (arguments.mode == "enclose" && !arguments.effort.empty())
     graph.sets.push_back("links.effort=" + arguments.effort);
+  // Where nothing is handed out, fits tell nothing: one ball is quick.
+  if (links.size() == 1 || all_fixed(fixed)) graph.sets.push_back("curves.fits=1");
   const std::string out = std::exchange(arguments.run.out, std::string());  // files of links nobody asked for
   SpheresArguments files = arguments;
   files.run.out = out;
