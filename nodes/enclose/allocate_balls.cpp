@@ -9,29 +9,39 @@
 namespace ballflow::geometry {
 namespace {
 
-/// Volume outside against the number of balls.
+/// Volume outside against the number of balls: the largest convex function of 1 / sqrt(k) below the fits, so
+/// that a fit without luck does not end the gains of an object.
 class Curve {
  public:
   void add(const EnclosureFit& fit) {
-    const double loss =
-        volumes_.empty() ? fit.loss : std::min(fit.loss, volumes_.back());  // never more for more balls
-    balls_.push_back(fit.wanted);
-    volumes_.push_back(loss);
+    Point point{1 / std::sqrt(static_cast<double>(fit.wanted)), fit.loss};
+    if (!points_.empty())
+      point.loss = std::min(point.loss, points_.back().loss);  // never more for more balls
+    while (points_.size() > 1 && !below(points_[points_.size() - 2], points_.back(), point))
+      points_.pop_back();
+    points_.push_back(point);
   }
 
   double at(std::int64_t balls) const {
-    const double place = scaled(balls);
-    if (balls_.size() == 1 || balls >= balls_.back()) return volumes_.back() * place / scaled(balls_.back());
+    const double place = 1 / std::sqrt(static_cast<double>(balls));
+    const Point &few = points_.front(), &many = points_.back();
+    if (place <= many.place) return many.loss * place / many.place;
+    if (place >= few.place) return few.loss * place / few.place;
     std::size_t i = 1;
-    while (balls > balls_[i]) ++i;
-    const double low = scaled(balls_[i - 1]), high = scaled(balls_[i]);
-    return volumes_[i] + (volumes_[i - 1] - volumes_[i]) * (place - high) / (low - high);
+    while (place < points_[i].place) ++i;
+    const Point &a = points_[i - 1], &b = points_[i];
+    return b.loss + (a.loss - b.loss) * (place - b.place) / (a.place - b.place);
   }
 
  private:
-  static double scaled(std::int64_t balls) { return 1 / std::sqrt(static_cast<double>(balls)); }
-  std::vector<std::int64_t> balls_;
-  std::vector<double> volumes_;
+  struct Point {
+    double place, loss;
+  };
+  /// Whether b lies below the line from a to c.
+  static bool below(const Point& a, const Point& b, const Point& c) {
+    return (b.loss - c.loss) * (a.place - c.place) < (a.loss - c.loss) * (b.place - c.place);
+  }
+  std::vector<Point> points_;  // more and more balls
 };
 
 void check_length(std::size_t length, std::size_t objects, const std::string& what) {

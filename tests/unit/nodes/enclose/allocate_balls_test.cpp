@@ -63,6 +63,15 @@ TEST(allocate_balls, keeps_minima_and_fixed_counts_and_looks_at_weights) {
   EXPECT_EQ(allocated({0.01, 100, 1}, options), (std::vector<std::int32_t>{1, 2, 3}));
 }
 
+TEST(allocate_balls, a_fit_without_luck_does_not_end_the_gains_of_an_object) {
+  std::vector<EnclosureFit> fits = fits_of({7, 3});
+  fits[1].loss = fits[0].loss;  // 8 balls are no better than 2
+  AllocateBallsOptions options;
+  options.balls = 40;
+  const BallCounts found = allocate_balls(fits, options), lucky = allocate_balls(fits_of({7, 3}), options);
+  EXPECT_EQ(found.counts[0], lucky.counts[0]);
+}
+
 TEST(allocate_balls, refuses_what_does_not_add_up) {
   const auto cause = [](const AllocateBallsOptions& options) -> std::string {
     try {

@@ -94,7 +94,7 @@ TriangleMesh random_model(Random& random, int kind) {
 
 TEST(enclose_balls, of_boxes_rods_plates_profiles_shells_tori_and_soups_is_proven) {
   const char* const more = std::getenv("BALLFLOW_TEST_MODELS");  // tools/nightly asks for many
-  const int trials = more == nullptr ? 8 : std::atoi(more);  // one of each kind
+  const int trials = more == nullptr ? 8 : std::atoi(more);      // one of each kind
   Random random(5);
   for (int trial = 0; trial < trials; ++trial) {
     const TriangleMesh mesh = random_model(random, trial % 8);
