@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "enclose/covered_triangles.hpp"
+#include "enclose_shapes.hpp"
 #include "io/file_content.hpp"
 #include "power/power_diagram.hpp"
 #include "sample/generate.hpp"
@@ -24,26 +25,6 @@ constexpr VerifyEnclosureOptions report{.on_open = OnOpen::report};
 
 Balls balls_of(std::vector<Vec3> centers, std::vector<double> radii) {
   return {std::move(centers), std::move(radii), {}, {}};
-}
-
-TriangleMesh box(Vec3 lower, Vec3 upper) {
-  std::vector<Vec3> v;
-  for (int k = 0; k < 8; ++k) {
-    v.push_back({(k & 1) != 0 ? upper.x : lower.x, (k & 2) != 0 ? upper.y : lower.y,
-                 (k & 4) != 0 ? upper.z : lower.z});
-  }
-  return {v, std::vector<Triangle>{{0, 2, 3},
-                                   {0, 3, 1},
-                                   {4, 5, 7},
-                                   {4, 7, 6},
-                                   {0, 1, 5},
-                                   {0, 5, 4},
-                                   {2, 6, 7},
-                                   {2, 7, 3},
-                                   {0, 4, 6},
-                                   {0, 6, 2},
-                                   {1, 3, 7},
-                                   {1, 7, 5}}};
 }
 
 double random_unit(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
@@ -71,7 +52,7 @@ std::string message_of(const TriangleMesh& mesh, const Balls& balls) {
 
 TEST(verify_enclosure, of_a_box_in_a_ball_that_touches_its_corners_is_decided_exactly) {
   // (3, 4, 12) has the length 13; a radius one unit in the last place less leaves the corners out.
-  const TriangleMesh mesh = box({-3, -4, -12}, {3, 4, 12});
+  const TriangleMesh mesh = box_mesh({-3, -4, -12}, {3, 4, 12});
   const Enclosure touching = verify_enclosure(mesh, balls_of({{0, 0, 0}}, {13}), report);
   EXPECT_TRUE(touching.encloses());
   EXPECT_EQ(touching.pieces, 12);
@@ -83,7 +64,7 @@ TEST(verify_enclosure, of_a_box_in_a_ball_that_touches_its_corners_is_decided_ex
 }
 
 TEST(verify_enclosure, cuts_triangles_until_every_part_lies_in_one_ball) {
-  const TriangleMesh mesh = box({0, 0, 0}, {4, 1, 1});
+  const TriangleMesh mesh = box_mesh({0, 0, 0}, {4, 1, 1});
   std::vector<Vec3> centers;
   for (int i = 0; i < 8; ++i) centers.push_back({0.25 + 0.5 * i, 0.5, 0.5});
   const Enclosure enough = verify_enclosure(mesh, balls_of(centers, std::vector<double>(8, 0.76)), report);
@@ -99,7 +80,7 @@ TEST(verify_enclosure, cuts_triangles_until_every_part_lies_in_one_ball) {
 
 TEST(verify_enclosure, ends_where_balls_meet_on_the_surface_without_overlapping) {
   // As before, but no cut of the length 3 in halves meets a multiple of 0.5.
-  const TriangleMesh mesh = box({0, 0, 0}, {3, 1, 1});
+  const TriangleMesh mesh = box_mesh({0, 0, 0}, {3, 1, 1});
   std::vector<Vec3> centers;
   for (int i = 0; i < 6; ++i) centers.push_back({0.25 + 0.5 * i, 0.5, 0.5});
   const Enclosure exactly = verify_enclosure(mesh, balls_of(centers, std::vector<double>(6, 0.75)), report);
@@ -203,7 +184,7 @@ TEST(verify_enclosure, says_of_random_soups_and_balls_what_samples_say) {
 }
 
 TEST(verify_enclosure, is_the_same_with_a_diagram_doubled_triangles_and_any_orientation) {
-  TriangleMesh mesh = box({0, 0, 0}, {1, 1, 1});
+  TriangleMesh mesh = box_mesh({0, 0, 0}, {1, 1, 1});
   const Balls balls = balls_of({{0.5, 0.5, 0.25}, {0.5, 0.5, 0.75}}, {0.8, 0.8});
   const PowerDiagram diagram = power_diagram(balls, {}, no_monitor());
   EXPECT_TRUE(verify_enclosure(mesh, balls, {}, no_monitor(), &diagram).encloses());
@@ -216,7 +197,7 @@ TEST(verify_enclosure, is_the_same_with_a_diagram_doubled_triangles_and_any_orie
 }
 
 TEST(verify_enclosure, names_the_first_place_and_refuses_what_it_cannot_use) {
-  const TriangleMesh mesh = box({0, 0, 0}, {1, 1, 1});
+  const TriangleMesh mesh = box_mesh({0, 0, 0}, {1, 1, 1});
   EXPECT_NE(
       message_of(mesh, balls_of({{0, 0, 0}}, {0.5})).find("triangle 0: its point (0, 1, 0) is in no ball"),
       std::string::npos)
