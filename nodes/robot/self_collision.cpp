@@ -62,7 +62,7 @@ class PairFinder {
       for (std::size_t k = i + 1; k < links_.size(); ++k) pairs_.push_back({links_[i], links_[k]});
     }
     const std::vector<bool> adjacent = adjacency();
-    const std::vector<Pose> default_pose = link_poses(spheres_, default_values());
+    const std::vector<Pose> default_pose = link_poses(spheres_, default_values(spheres_));
     // How often each pair met. Poses differ only in their random numbers, so their order does not matter.
     std::vector<std::atomic<std::int64_t>> met(pairs_.size());
     std::atomic<std::int64_t> done = 0;
@@ -128,16 +128,6 @@ class PairFinder {
   bool turns_or_slides(std::size_t joint) const {
     const auto kind = static_cast<JointKind>(spheres_.joint_kinds[joint]);
     return kind == JointKind::revolute || kind == JointKind::continuous || kind == JointKind::prismatic;
-  }
-
-  std::vector<double> default_values() const {
-    std::vector<double> values(spheres_.joint_kinds.size(), 0);
-    for (std::size_t j = 0; j < values.size(); ++j) {
-      const auto [lower, upper] = spheres_.joint_limits[j];
-      if (spheres_.joint_kinds[j] != static_cast<std::uint8_t>(JointKind::continuous) && lower <= upper)
-        values[j] = std::clamp(0.0, lower, upper);
-    }
-    return values;
   }
 
   std::vector<double> random_values(std::uint64_t pose) const {

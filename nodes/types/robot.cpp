@@ -83,6 +83,28 @@ std::vector<std::size_t> from_root(const RobotTree& tree) {
   return order;
 }
 
+std::vector<double> default_values(const RobotTree& tree) {
+  std::vector<double> values(tree.joint_kinds.size(), 0);
+  for (std::size_t j = 0; j < values.size(); ++j) {
+    const auto [lower, upper] = tree.joint_limits[j];
+    if (tree.joint_kinds[j] != static_cast<std::uint8_t>(JointKind::continuous) && lower <= upper)
+      values[j] = std::clamp(0.0, lower, upper);
+  }
+  return values;
+}
+
+JointSource source_of(const RobotTree& tree, std::size_t joint) {
+  JointSource source{joint, 1, 0};
+  // As far as there are joints.
+  for (std::size_t steps = 0; tree.joint_mimics[source.joint] >= 0 && steps < tree.joint_kinds.size();
+       ++steps) {
+    source.offset += source.factor * tree.joint_mimic_lines[source.joint][1];
+    source.factor *= tree.joint_mimic_lines[source.joint][0];
+    source.joint = static_cast<std::size_t>(tree.joint_mimics[source.joint]);
+  }
+  return source;
+}
+
 std::vector<Pose> link_poses(const RobotTree& tree, const std::vector<double>& values) {
   constexpr double full_turn = 6.283185307179586476925;
   std::vector<Pose> poses(tree.joint_kinds.size() + 1, no_motion);
@@ -92,16 +114,9 @@ std::vector<Pose> link_poses(const RobotTree& tree, const std::vector<double>& v
   const std::vector<std::size_t> order = from_root(tree);
   for (std::size_t i = 1; i < order.size(); ++i) {
     const std::size_t joint = joint_of[order[i]];
-    double value = values[joint];
-    // One that follows another that follows another: as far as there are joints.
-    double slope = 1, offset = 0;
-    std::size_t at = joint;
-    for (std::size_t steps = 0; tree.joint_mimics[at] >= 0 && steps < values.size(); ++steps) {
-      offset += slope * tree.joint_mimic_lines[at][1];
-      slope *= tree.joint_mimic_lines[at][0];
-      at = static_cast<std::size_t>(tree.joint_mimics[at]);
-    }
-    if (at != joint) value = slope * values[at] + offset;
+    const JointSource source = source_of(tree, joint);
+    const double value =
+        source.joint == joint ? values[joint] : source.factor * values[source.joint] + source.offset;
     Pose motion = no_motion;
     const Vec3 axis = tree.joint_axes[joint];
     switch (static_cast<JointKind>(tree.joint_kinds[joint])) {

@@ -76,6 +76,18 @@ TriangleMesh mesh_of(const Robot& robot, std::size_t link);
 /// Frames of all links in that of the root, for values of all joints (those that follow others: any).
 std::vector<Pose> link_poses(const RobotTree& tree, const std::vector<double>& values);
 
+/// Values of all joints where each is at 0, or at the limit nearest to it.
+std::vector<double> default_values(const RobotTree& tree);
+
+/// How the value of a joint comes from that of another one: factor * value of `joint` + offset. The joint is
+/// itself, with 1 and 0, where it follows none; one that follows another that follows a third comes from
+/// that.
+struct JointSource {
+  std::size_t joint = 0;
+  double factor = 1, offset = 0;
+};
+JointSource source_of(const RobotTree& tree, std::size_t joint);
+
 /// Links from the root on, parents before children.
 std::vector<std::size_t> from_root(const RobotTree& tree);
 

@@ -148,7 +148,57 @@ class Artifact:
         self.pairs = [(self.link_names[i], self.link_names[k]) for i, k in a["pair_links"]]
         self.reasons = a["pair_reasons"]
 
-    read_Enclosure = read_MassProperties = read_Robot = read_CoverState
+    def read_Robot(self, a):
+        ends = [0] + a["vertex_ends"]
+        self.link_vertices = [a["vertices"][ends[i]:ends[i + 1]] for i in range(len(ends) - 1)]
+        self.link_names = bytes(a["link_names"]).decode().splitlines()
+
+    def offset_triangles(self):
+        """Triangles of a robot, each with the number of vertices before those of its link."""
+        begins, ends = [0] + self.arrays["vertex_ends"], self.arrays["triangle_ends"]
+        link = 0
+        for i, triangle in enumerate(self.arrays["triangles"]):
+            while i >= ends[link]:
+                link += 1
+            yield begins[link], triangle
+
+    def frames(self):
+        """Rotation and place of each link of a robot, where its joints are at 0 or at the limit nearest to it."""
+        a = self.arrays
+        values = [min(max(0, low), high) if kind != 2 else 0 for (low, high), kind in zip(a["joint_limits"], a["joint_kinds"])]
+        parent = {child: j for j, child in enumerate(a["joint_children"])}
+
+        def value(joint):
+            leader = a["joint_mimics"][joint]
+            if leader < 0:
+                return values[joint]
+            factor, offset = a["joint_mimic_lines"][joint]
+            return factor * value(leader) + offset
+
+        def frame(link):
+            if link not in parent:
+                return ((1, 0, 0), (0, 1, 0), (0, 0, 1)), (0, 0, 0)
+            j = parent[link]
+            rotation, place = frame(a["joint_parents"][j])
+            origin, axis, kind = a["joint_origins"][j], a["joint_axes"][j], a["joint_kinds"][j]
+            at, own = origin[9:], rows(origin[:9], 3)
+            if kind == 3:
+                at = tuple(p + value(j) * sum(r * u for r, u in zip(row, axis)) for p, row in zip(at, own))
+            if kind in (1, 2):
+                # Rodrigues: v cos + (u x v) sin + u (u . v) (1 - cos), for the three unit vectors.
+                c, s = math.cos(value(j)), math.sin(value(j))
+                turned = []
+                for k in range(3):
+                    v = [float(i == k) for i in range(3)]
+                    cross = [axis[1] * v[2] - axis[2] * v[1], axis[2] * v[0] - axis[0] * v[2], axis[0] * v[1] - axis[1] * v[0]]
+                    turned.append([v[i] * c + cross[i] * s + axis[i] * axis[k] * (1 - c) for i in range(3)])
+                own = [[sum(row[i] * turned[k][i] for i in range(3)) for k in range(3)] for row in own]
+            product = [[sum(row[i] * own[i][k] for i in range(3)) for k in range(3)] for row in rotation]
+            return product, tuple(p + sum(r * x for r, x in zip(row, at)) for p, row in zip(place, rotation))
+
+        return [frame(link) for link in range(len(self.link_names))]
+
+    read_Enclosure = read_MassProperties = read_CoverState
 
     read_CoverCheck = read_Comparison = read_Bisection = read_CoverState
     read_TopologyTable = read_TopologyCheck = read_Refinement = read_CoverState
@@ -559,8 +609,36 @@ def check_sphere(attributes, triangles):
         require(sum(x * y for x, y in zip(normal, a)) > 0, "a triangle that looks inward")
 
 
+def placed_by(frame, p):
+    rotation, place = frame
+    return tuple(t + sum(r * x for r, x in zip(row, p)) for t, row in zip(place, rotation))
+
+
+def check_robot_glb(glb, artifact):
+    """Meshes or spheres of the links where the joints put them."""
+    roots = list(glb.roots())
+    same(len(roots), 1, "nodes")
+    root, children = roots[0]
+    if artifact.type == "Robot":
+        attributes, triangles, _ = glb.primitive(root)
+        same(triangles, [tuple(v + offset for v in t) for offset, t in artifact.offset_triangles()], "triangles")
+        found = [(*p, 0) for p in attributes["POSITION"]]
+        expected = [(*placed_by(f, p), 0) for f, part in zip(artifact.frames(), artifact.link_vertices) for p in part]
+        numbers = [i for i, part in enumerate(artifact.link_vertices) for _ in part]
+        same(attributes["_LINK"], [float(i) for i in numbers], "links")
+    else:
+        found = [(*child["translation"], child["scale"][0]) for child in children]
+        expected = [(*placed_by(f, s[:3]), s[3]) for f, name in zip(artifact.frames(), artifact.link_names)
+                    for s in artifact.spheres[name]]
+    same(len(found), len(expected), "elements")
+    for a, b in zip(found, expected):
+        require(math.dist(a, b) < 1e-6, f"{a} instead of {b}")
+
+
 def check_glb(data, artifact):
     glb = Glb(data)
+    if artifact.type in ("Robot", "RobotSpheres"):
+        return check_robot_glb(glb, artifact)
     points = {float32_row(p) for p in artifact.points}
     found = {1: set(), 2: set(), 3: set()}
     count = {1: 0, 2: 0, 3: 0}

@@ -70,6 +70,16 @@ test('outputs come in the order in which nodes make them, then what was given', 
   assert.deepEqual(model.groupsOf(scene, shown, null).map(({ title }) => title), ['points', 'balls', 'given']);
 });
 
+test('what has joints comes first, and hides its parts at first', () => {
+  const whole = { type: 'Robot', layers: [layer('links', 'triangles', { chain: 0 })] };
+  const parted = { ...scene, artifacts: { ...scene.artifacts, r: whole, m: { type: 'TriangleMesh', layers: [layer('mesh', 'triangles')] } }, loose: [] };
+  const outputs = [{ name: 'robot', from: 'sample.robot', digest: 'r' }, { name: 'hand/mesh', from: '[e=1]/grow.mesh', digest: 'm' }];
+  const groups = model.groupsOf(parted, { ...shown, outputs }, null);
+  assert.deepEqual(groups.map(({ title }) => title), ['robot', 'hand/mesh']);
+  const settings = model.firstSettings(groups, true);
+  assert.deepEqual([...settings].map(([key, { visible }]) => [key, visible]).sort(), [['hand/mesh/mesh', false], ['robot/links', true]]);
+});
+
 test('a node shows its own artifacts, under a name without the variant', () => {
   const groups = model.groupsOf(scene, shown, '[e=1]/grow');
   assert.deepEqual(groups.map(({ title }) => title), ['grow.balls', 'grow.cover']);

@@ -43,6 +43,7 @@ TypeFormats medial_axis_formats();
 TypeFormats topology_table_formats();
 TypeFormats sample_assignment_formats();
 TypeFormats surface_report_formats();
+TypeFormats robot_formats();
 TypeFormats robot_spheres_formats();
 
 /// What every type can be written as.

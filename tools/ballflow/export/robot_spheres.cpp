@@ -1,4 +1,4 @@
-// RobotSpheres: what planners and simulators of robots read.
+// Robot: what can be looked at. RobotSpheres: what planners and simulators of robots read.
 #include "export/formats/robot_spheres.hpp"
 
 #include "export/format_table.hpp"
@@ -19,10 +19,16 @@ Format robot_format(std::string_view name, std::string_view extension = {}) {
 
 TypeFormats robot_spheres_formats() {
   return {"RobotSpheres",
-          {robot_format<write_spheres_urdf>("urdf"), robot_format<write_spheres_srdf>("srdf"),
-           robot_format<write_curobo>("curobo", "yml"), robot_format<write_xrdf>("xrdf"),
-           robot_format<write_foam>("foam", "json"), robot_format<write_mjcf>("mjcf", "xml"),
-           robot_format<write_spheres_csv>("csv")}};
+          {robot_format<write_spheres_urdf>("urdf"),
+           robot_format<write_spheres_srdf>("srdf"),
+           robot_format<write_curobo>("curobo", "yml"),
+           robot_format<write_xrdf>("xrdf"),
+           robot_format<write_foam>("foam", "json"),
+           robot_format<write_mjcf>("mjcf", "xml"),
+           robot_format<write_spheres_csv>("csv"),
+           {"glb", write_glb}}};
 }
+
+TypeFormats robot_formats() { return {"Robot", {{"glb", write_glb}}}; }
 
 }  // namespace ballflow

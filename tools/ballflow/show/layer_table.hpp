@@ -24,6 +24,8 @@ TypeLayers simplicial_complex_layers();
 TypeLayers medial_axis_layers();
 TypeLayers refinement_layers();
 TypeLayers enclosure_layers();
+TypeLayers robot_layers();
+TypeLayers robot_spheres_layers();
 TypeLayers sample_assignment_layers();
 TypeLayers surface_report_layers();
 

@@ -10,11 +10,20 @@ namespace ballflow::show {
 namespace {
 
 const std::vector<TypeLayers>& table() {
-  static const std::vector<TypeLayers> types = {
-      point_set_layers(),          triangle_mesh_layers(),      balls_layers(),
-      pole_set_layers(),           local_feature_size_layers(), growth_layers(),
-      simplicial_complex_layers(), medial_axis_layers(),        refinement_layers(),
-      sample_assignment_layers(),  surface_report_layers(),     enclosure_layers()};
+  static const std::vector<TypeLayers> types = {point_set_layers(),
+                                                triangle_mesh_layers(),
+                                                balls_layers(),
+                                                pole_set_layers(),
+                                                local_feature_size_layers(),
+                                                growth_layers(),
+                                                simplicial_complex_layers(),
+                                                medial_axis_layers(),
+                                                refinement_layers(),
+                                                sample_assignment_layers(),
+                                                surface_report_layers(),
+                                                enclosure_layers(),
+                                                robot_layers(),
+                                                robot_spheres_layers()};
   return types;
 }
 
@@ -108,6 +117,14 @@ std::string broken_invariant(const Layer& layer) {
       if (!a.categories.empty() && !(value >= 0 && value < static_cast<double>(a.categories.size()))) {
         return "the attribute " + a.name + " has a value outside of its categories";
       }
+    }
+  }
+  if (layer.frames.size() != (layer.chain == nullptr ? 0 : layer.vertices.size()))
+    return "the frames of vertices are not one for each";
+  if (layer.chain != nullptr) {
+    if (std::string why = broken_invariant(*layer.chain); !why.empty()) return why;
+    for (const std::uint32_t frame : layer.frames) {
+      if (frame >= layer.chain->frames.size()) return "a vertex goes with a frame that is not there";
     }
   }
   if (!layer.colour_by.empty() && layer.find(layer.colour_by) == nullptr) {

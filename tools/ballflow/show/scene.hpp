@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "ballflow/artifact.hpp"
 #include "base/array.hpp"
 #include "base/vec3.hpp"
+#include "show/chain.hpp"
 #include "types/point_set.hpp"
 #include "types/triangle_mesh.hpp"
 
@@ -44,6 +46,11 @@ struct Layer {
   double opacity = 1;     // at first; in (0, 1]
   bool visible = true;    // at first
   bool smooth = false;  // triangles stand for a smooth surface, apart from sharp edges; else they are facets
+
+  // What moves in pages, with the frame that each vertex goes with; null and empty where nothing does. The
+  // vertices are where they are when the joints have the values of the chain.
+  std::shared_ptr<const Chain> chain;
+  std::vector<std::uint32_t> frames;  // n
 
   /// Points, balls, segments or triangles.
   std::size_t elements() const;

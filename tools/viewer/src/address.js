@@ -1,9 +1,10 @@
-// What the address of the page remembers after its "#": camera, variant, node. A copied address shows the same.
+// What the address of the page remembers after its "#": camera, variant, node, joints that were moved.
+// A copied address shows the same.
 
 const numbers = (list) => list.map((x) => Number(x.toPrecision(7))).join(',');
 
-/** { camera: { position, target, up, half }, variant, node } -> "camera=...&variant=1" */
-export function written({ camera, variant, node }) {
+/** { camera: { position, target, up, half }, variant, node, joints: Map of a chain to values } -> "camera=...&variant=1" */
+export function written({ camera, variant, node, joints }) {
   const parts = [];
   if (camera) {
     const { position, target, up, half } = camera;
@@ -11,6 +12,7 @@ export function written({ camera, variant, node }) {
   }
   if (variant) parts.push(`variant=${variant}`);
   if (node) parts.push(`node=${encodeURIComponent(node)}`);
+  for (const [chain, values] of joints ?? []) parts.push(`joints=${numbers([chain, ...values])}`);
   return parts.join('&');
 }
 
@@ -29,6 +31,12 @@ export function read(text) {
       }
     }
     if (name === 'variant' && /^\d+$/.test(value)) result.variant = Number(value);
+    if (name === 'joints') {
+      const [chain, ...values] = value.split(',').map((word) => (word === '' ? NaN : Number(word)));
+      if (Number.isInteger(chain) && chain >= 0 && values.length > 0 && values.every(Number.isFinite)) {
+        (result.joints ??= new Map()).set(chain, values);
+      }
+    }
     if (name === 'node') {
       try {
         result.node = decodeURIComponent(value);

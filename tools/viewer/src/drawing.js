@@ -208,6 +208,27 @@ export class Drawing {
     if (this.wire) this.wire.renderOrder = 3 * order + 2;
   }
 
+  /** Puts the vertices elsewhere: as many, relative to the same centre. */
+  move(vertices) {
+    if (vertices === this.arrays.vertices) return;
+    this.arrays = { ...this.arrays, vertices };
+    const { segments, triangles } = this.arrays;
+    const set = (geometry, name, values) => {
+      const attribute = geometry.getAttribute(name);
+      attribute.array = values;
+      attribute.needsUpdate = true;
+    };
+    if (this.layer.shape === 'balls') {
+      set(this.geometry, 'position', gathered(vertices, Uint32Array.from({ length: 4 * this.layer.count }, (_, i) => i >> 2), 3));
+    } else if (this.layer.shape === 'segments') {
+      set(this.geometry, 'start', gathered(vertices, every(segments, 2, 0), 3));
+      set(this.geometry, 'end', gathered(vertices, every(segments, 2, 1), 3));
+    } else {
+      set(this.geometry, 'position', this.apart ? gathered(vertices, triangles, 3) : vertices);
+    }
+    if (this.wire) set(this.wire.geometry, 'position', vertices);
+  }
+
   dispose() {
     for (const object of [this.main, this.depth, this.wire]) {
       object?.geometry.dispose();

@@ -4,14 +4,16 @@ import { Blocks } from './blocks.js';
 import { element } from './dom.js';
 import { Drawing } from './drawing.js';
 import { graphView } from './graph_view.js';
+import { heading } from './heading.js';
 import { helpDialog } from './help.js';
+import { Joints } from './joints.js';
 import { legend } from './legend.js';
 import * as model from './model.js';
 import { channels, Palette } from './palette.js';
-import { clipPanel, layersPanel, nodePanel, variantPanel } from './panels.js';
+import { clipPanel, jointsPanel, layersPanel, nodePanel, variantPanel } from './panels.js';
 import { pick } from './pick.js';
 import { Stage } from './stage.js';
-import { duration, plain, rounded } from './words.js';
+import { rounded } from './words.js';
 
 const scene = JSON.parse(document.getElementById('ballflow-scene').textContent);
 const palette = new Palette(scene.palette);
@@ -29,11 +31,14 @@ const state = {
   clip: { on: false, axis: 0, position: 0.5, flipped: false },
   graphOpen: true,
 };
+const joints = new Joints(scene.chains, remembered.joints);
+const boxOf = (layers) => joints.boxOf(layers);
 
 const variant = () => variants[state.variant] ?? null;
 const nodes = () => model.nodesOf(scene, variant());
 const chosenNode = () => nodes().find(({ path }) => path === state.node) ?? null;
 const groups = () => model.groupsOf(scene, variant(), state.node, state.withOutputs);
+const allLayers = () => groups().flatMap(({ layers }) => layers);
 
 /** The same node in another variant: paths differ, names do not. */
 function nodeLike(path) {
@@ -79,27 +84,6 @@ function button(text, title, onclick) {
   return element('button', { text, title, onclick });
 }
 
-function heading() {
-  const graph = graphOf();
-  const title = graph ? graph.name : scene.loose.map(({ name }) => name).join(', ');
-  document.title = `${title} \u2013 ballflow`;
-  const started = graph?.started?.slice(0, 16).replace('T', ' ');
-  const facts = [started, graph?.status, graph?.seconds !== undefined && duration(graph.seconds)].filter(Boolean);
-  const params = Object.entries(graph?.params ?? {}).map(([name, value]) => `${name} = ${plain(value)}`);
-  return element(
-    'header', {},
-    element('h1', { text: title.split('/').at(-1), title: graph?.doc ?? title }),
-    element('span', { class: 'facts', text: facts.join(' \u00b7 '), title: graph?.run && `run ${graph.run}` }),
-    element('span', { class: 'params', text: params.join(', '), title: params.join('\n') }),
-    scene.left_out.length > 0 &&
-      element('details', { class: 'left-out' }, element('summary', { text: `${scene.left_out.length} left out` }),
-        element('ul', {}, ...scene.left_out.map((text) => element('li', { text })))),
-    graph && hasLayers && button('Graph', 'show or hide the graph (g)', () => toggleGraph()),
-    button('Theme', 'light or dark (t)', toggleTheme),
-    button('?', 'keys (?)', () => help.showModal()),
-  );
-}
-
 function toolbar() {
   return element(
     'div', { class: 'toolbar', role: 'toolbar' },
@@ -116,7 +100,7 @@ function toolbar() {
 // --- what is drawn again ---
 
 function visibleLayers() {
-  return groups().flatMap(({ layers }) => layers).filter(({ key }) => state.settings.get(key)?.visible);
+  return allLayers().filter(({ key }) => state.settings.get(key)?.visible);
 }
 
 function coloured(layer) {
@@ -150,6 +134,11 @@ function showSide() {
   parts.side.replaceChildren(
     ...[
       variantPanel({ axes, variants, current: state.variant, choose: chooseVariant }),
+      hasLayers && jointsPanel({
+        chains: joints.of(allLayers()),
+        change: (...joint) => { joints.set(...joint); jointsMoved(); },
+        reset: (number) => { joints.reset(number); showSide(); jointsMoved(); },
+      }),
       hasLayers && layersPanel({
         title: node && shown.some(({ title }) => title.startsWith(`${node.name}.`)) ? `Layers of ${node.name}` : 'Layers',
         groups: shown, settings: state.settings, palette, change: changeLayer,
@@ -157,7 +146,7 @@ function showSide() {
         withOutputs: state.withOutputs,
         setWithOutputs: (on) => { state.withOutputs = on; showAll(); },
       }),
-      hasLayers && clipPanel({ clip: state.clip, box: model.boxOf(visibleLayers()), change: changeClip }),
+      hasLayers && clipPanel({ clip: state.clip, box: boxOf(visibleLayers()), change: changeClip }),
       node && nodePanel({ node, type: scene.types[node.type], artifacts: scene.artifacts }),
     ].filter(Boolean),
   );
@@ -186,7 +175,9 @@ async function drawingOf(layer) {
     }
     if (!drawings.has(layer.drawing)) drawings.set(layer.drawing, new Drawing(layer, arrays, stage.common));
   }
-  return drawings.get(layer.drawing);
+  const drawing = drawings.get(layer.drawing);
+  await joints.move(layer, drawing, blocks);
+  return drawing;
 }
 
 async function paint(drawing, layer) {
@@ -222,7 +213,7 @@ async function drawLayers() {
       drawing.setLook({ opacity, style, order });
       list.push(drawing);
     }
-    stage.setBound(model.boxOf(layers));
+    stage.setBound(boxOf(layers));
     applyClip();
     stage.show(list);
     hidePicked();
@@ -260,10 +251,15 @@ function changeClip(more, moving = false) {
 
 function applyClip() {
   if (!stage) return;
-  const box = model.boxOf(visibleLayers());
+  const box = boxOf(visibleLayers());
   const { on, axis, position, flipped } = state.clip;
   stage.clip = on && box ? { axis, flipped, position: box.lower[axis] + position * (box.upper[axis] - box.lower[axis]) } : null;
   stage.request();
+}
+
+function jointsMoved() {
+  remember();
+  return showPicture();
 }
 
 function chooseVariant(axis, value) {
@@ -286,7 +282,7 @@ function chooseNode(path) {
 }
 
 function fit(view) {
-  stage?.fit(model.boxOf(visibleLayers()), view);
+  stage?.fit(boxOf(visibleLayers()), view);
 }
 
 function toggleProjection() {
@@ -354,7 +350,7 @@ let remembering = 0;
 function remember() {
   clearTimeout(remembering);
   remembering = setTimeout(() => {
-    const text = address.written({ camera: stage?.getCamera(), variant: state.variant, node: state.node });
+    const text = address.written({ camera: stage?.getCamera(), variant: state.variant, node: state.node, joints: joints.moved });
     history.replaceState(null, '', `#${text}`);
   }, 250);
 }
@@ -397,12 +393,16 @@ async function start() {
   settle(groups());
   const view = element('main', { class: 'view' }, parts.canvas, element('div', { class: 'toolbar' }), parts.legend, parts.picked, parts.busy);
   app.className = hasLayers ? 'with-view' : 'graph-only';
-  app.append(heading(), ...(hasLayers ? [view] : []), parts.graph, parts.side, help);
+  app.append(heading({ scene, graph: graphOf(), buttons: [
+    graphOf() && hasLayers && button('Graph', 'show or hide the graph (g)', () => toggleGraph()),
+    button('Theme', 'light or dark (t)', toggleTheme),
+    button('?', 'keys (?)', () => help.showModal()),
+  ] }), ...(hasLayers ? [view] : []), parts.graph, parts.side, help);
   if (!hasLayers && scene.graphs.length === 0) app.append(element('p', { class: 'empty', text: 'There is nothing to show in 3D.' }));
   document.addEventListener('keydown', onKey);
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', ground);
   if (hasLayers) {
-    const box = model.boxOf(visibleLayers()) ?? model.boxOf(groups().flatMap(({ layers }) => layers)) ?? { lower: [0, 0, 0], upper: [1, 1, 1] };
+    const box = model.boxOf(visibleLayers()) ?? model.boxOf(allLayers()) ?? { lower: [0, 0, 0], upper: [1, 1, 1] };
     try {
       stage = new Stage(parts.canvas, palette, box.lower.map((x, i) => (x + box.upper[i]) / 2));
     } catch (error) {
@@ -419,7 +419,8 @@ async function start() {
     });
     parts.canvas.addEventListener('dblclick', turnAbout);
     stage.onchange = () => { hidePicked(); remember(); };
-    stage.setBound(model.boxOf(visibleLayers()));
+    stage.setBound(boxOf(visibleLayers()));
+    if (scene.chains.length > 0) stage.setUp('z'); // descriptions of what has joints stand on z = 0
     if (remembered.camera) stage.setCamera(remembered.camera);
     else fit('iso');
     showToolbar();
@@ -436,12 +437,14 @@ window.ballflow = {
   project: (point) => stage.project(point),
   camera: () => stage.getCamera(),
   setCamera: (camera) => stage.setCamera(camera),
-  layers: () => groups().flatMap(({ layers }) => layers).map(({ key, name, shape, count }) => ({ key, name, shape, count, ...state.settings.get(key) })),
+  layers: () => allLayers().map(({ key, name, shape, count }) => ({ key, name, shape, count, ...state.settings.get(key) })),
   arrays: async (key) => {
-    const layer = groups().flatMap(({ layers }) => layers).find((one) => one.key === key);
+    const layer = allLayers().find((one) => one.key === key);
     const { arrays } = await drawingOf(layer);
     return { centre: layer.centre, ...Object.fromEntries(Object.entries(arrays).map(([name, values]) => [name, Array.from(values)])) };
   },
+  joints: () => joints.of(allLayers()).flatMap(({ number, joints: all, values }) =>
+    all.map(({ name, unit, lower, upper }, i) => ({ chain: number, name, unit, lower, upper, value: values[i] }))),
   settled: async () => {
     await picture;
     stage?.finish();

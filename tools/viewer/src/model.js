@@ -105,21 +105,26 @@ export function groupsOf(scene, variant, nodePath, withOutputs = false) {
     const outputs = [...(variant?.outputs ?? [])].sort((a, b) => rank(a) - rank(b));
     for (const { name, digest } of outputs) add(name, digest);
     for (const { name, digest } of scene.loose) add(name, digest);
+    if (!chosen) groups.sort((a, b) => Number(hasJoints(b)) - Number(hasJoints(a))); // the whole before its parts
   }
   return groups;
 }
 
+const hasJoints = ({ layers }) => layers.some(({ chain }) => chain !== undefined);
+
 /**
  * Which layers are visible at first, and how opaque. Of the outputs of a graph several would hide one another: of
- * those with layers of one shape only the last one is visible, and balls let through what they enclose. What a
- * node made, or was given by name, is shown as its type says.
+ * those with layers of one shape only the last one is visible, and balls let through what they enclose. Something
+ * with joints is seen before its parts, which would lie on each other in frames of their own. What a node made, or
+ * was given by name, is shown as its type says.
  */
 export function firstSettings(groups, areOutputs) {
   const settings = new Map();
   const visible = groups.flatMap(({ layers }) => layers.filter((layer) => layer.visible));
   const encloses = visible.some(({ shape }) => shape === 'segments' || shape === 'triangles');
   const seen = new Set();
-  for (const { layers } of [...groups].reverse()) {
+  const inOrder = [...groups].reverse().sort((a, b) => Number(hasJoints(b)) - Number(hasJoints(a)));
+  for (const { layers } of inOrder) {
     const shapes = new Set();
     for (const layer of layers) {
       const first = !areOutputs || !seen.has(layer.shape);

@@ -81,6 +81,28 @@ export function layersPanel({ title, groups, settings, palette, change, back, wi
   return section(title, scope, ...lists);
 }
 
+/** chains: [{ number, name, joints, values }]; change(number, joint, value), reset(number) */
+export function jointsPanel({ chains, change, reset }) {
+  if (chains.length === 0) return null;
+  return section('Joints', ...chains.flatMap(({ number, name, joints, values }) => [
+    chains.length > 1 && element('h3', { text: name }),
+    ...joints.map((joint, i) => {
+      const shown = element('output', { text: `${rounded(values[i], 3)}\u2009${joint.unit}` });
+      const slider = element('input', {
+        type: 'range', min: joint.lower, max: joint.upper, step: 'any', 'data-joint': joint.name, 'data-chain': number,
+        oninput: () => {
+          shown.textContent = `${rounded(slider.valueAsNumber, 3)}\u2009${joint.unit}`;
+          change(number, i, slider.valueAsNumber);
+        },
+      });
+      slider.value = values[i];
+      const range = `${rounded(joint.lower)} to ${rounded(joint.upper)} ${joint.unit}`;
+      return element('label', { class: 'axis', title: range }, element('span', { text: joint.name }), slider, shown);
+    }),
+    element('button', { text: 'Reset', title: 'joints as they were at first', 'data-reset': number, onclick: () => reset(number) }),
+  ]));
+}
+
 const axisNames = ['x', 'y', 'z'];
 
 /** clip: { on, axis, position in [0, 1] of the box, flipped } */

@@ -153,7 +153,8 @@ TEST(blocks, are_forgotten_from_the_end) {
 TEST(layer_json, keeps_the_digits_of_a_model_that_is_far_from_the_origin) {
   const Layer layer = ball_layer(50, 1e7);
   Blocks blocks;
-  const Json json = layer_json(layer, blocks);
+  Json chains = Json::array();
+  const Json json = layer_json(layer, blocks, chains);
   const std::vector<float> vertices = floats_of(blocks.all()[json.at("vertices").get<std::size_t>()]);
   ASSERT_EQ(vertices.size(), 150u);
   for (std::size_t i = 0; i < 50; ++i) {
@@ -171,7 +172,9 @@ TEST(layer_json, shares_vertices_of_balls_that_differ_in_radius_alone) {
   for (double& r : radii) r += 100;
   grown.radii = radii;
   Blocks blocks;
-  const Json a = layer_json(inner, blocks), b = layer_json(grown, blocks);
+  Json chains = Json::array();
+  const Json a = layer_json(inner, blocks, chains), b = layer_json(grown, blocks, chains);
+  EXPECT_TRUE(chains.empty());
   EXPECT_EQ(a.at("vertices"), b.at("vertices"));
   EXPECT_NE(a.at("radii"), b.at("radii"));
   EXPECT_EQ(a.at("radii"), a.at("attributes")[0].at("values")) << "the attribute radius is the radii";
@@ -187,7 +190,8 @@ TEST(layer_json, describes_attributes_by_range_or_by_counts) {
                       {"height", "mm", {}, true, {0.5, -2, 4}},
                       {"order", "", {}, true, {0, 1, 7}}};
   Blocks blocks;
-  const Json json = layer_json(layer, blocks);
+  Json chains = Json::array();
+  const Json json = layer_json(layer, blocks, chains);
   EXPECT_EQ(integers_of(blocks.all()[json.at("triangles").get<std::size_t>()]),
             (std::vector<std::uint32_t>{0, 1, 2, 2, 1, 0, 1, 2, 0}));
   const Json& kind = json.at("attributes")[0];

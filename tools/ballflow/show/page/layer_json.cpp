@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace ballflow::show {
 namespace {
@@ -60,9 +61,17 @@ Json attribute_json(const Attribute& attribute, Blocks& blocks) {
   return json;
 }
 
+/// The place of a chain in the list of those of the page: layers that move together share one.
+std::size_t place_of(Json chain, Json& chains) {
+  const auto found = std::find(chains.begin(), chains.end(), chain);
+  const auto place = static_cast<std::size_t>(found - chains.begin());
+  if (found == chains.end()) chains.push_back(std::move(chain));
+  return place;
+}
+
 }  // namespace
 
-Json layer_json(const Layer& layer, Blocks& blocks) {
+Json layer_json(const Layer& layer, Blocks& blocks, Json& chains) {
   // The centre does not depend on radii: layers with the same centres share a block.
   const geometry::Box box = bounding_box({layer}), inner = geometry::bounding_box(layer.vertices.span());
   const Vec3 center = inner.empty() ? Vec3{} : 0.5 * (inner.lower + inner.upper);
@@ -82,6 +91,10 @@ Json layer_json(const Layer& layer, Blocks& blocks) {
   if (layer.shape == Shape::balls) json["radii"] = add_floats(layer.radii, blocks);
   if (layer.shape == Shape::segments) json["segments"] = add_indices(layer.segments, blocks);
   if (layer.shape == Shape::triangles) json["triangles"] = add_indices(layer.triangles, blocks);
+  if (layer.chain != nullptr) {
+    json["chain"] = place_of(chain_json(*layer.chain), chains);
+    json["frames"] = blocks.add(std::span<const std::uint32_t>(layer.frames));
+  }
   json["attributes"] = Json::array();
   for (const Attribute& attribute : layer.attributes)
     json["attributes"].push_back(attribute_json(attribute, blocks));
@@ -95,7 +108,7 @@ std::size_t raw_bytes(const std::vector<Layer>& layers) {
   std::size_t bytes = 0;
   for (const Layer& layer : layers) {
     bytes += 12 * layer.vertices.size() + 4 * layer.radii.size() + 8 * layer.segments.size() +
-             12 * layer.triangles.size();
+             12 * layer.triangles.size() + 4 * layer.frames.size();
     for (const Attribute& attribute : layer.attributes) bytes += 4 * attribute.values.size();
   }
   return bytes;

@@ -11,8 +11,9 @@ namespace ballflow::show {
 
 /// {"name", "shape", "count", "centre", "lower", "upper", "vertices", "radii", "segments", "triangles",
 /// "attributes", "colour_by", "opacity", "visible"}; arrays are numbers of blocks. Vertices are floats
-/// relative to "centre", which is a double: models far from the origin lose nothing.
-Json layer_json(const Layer& layer, Blocks& blocks);
+/// relative to "centre", which is a double: models far from the origin lose nothing. A layer that moves has
+/// "chain", the place of its chain in `chains`, to which it is added where it is not there yet, and "frames".
+Json layer_json(const Layer& layer, Blocks& blocks, Json& chains);
 
 /// Bytes of the arrays of layers before they are compressed.
 std::size_t raw_bytes(const std::vector<Layer>& layers);

@@ -106,7 +106,7 @@ Json Page::packed(const std::string& digest, const Wanted& wanted, const PageSou
     constexpr std::size_t most_shrinking = 8;
     if (blocks_.bytes() + raw_bytes(all) / most_shrinking > max_bytes_) return missing(too_large);
     for (const Layer& layer : all) {
-      layers.push_back(layer_json(layer, blocks_));
+      layers.push_back(layer_json(layer, blocks_, chains_));
       if (blocks_.bytes() <= max_bytes_) continue;
       blocks_.shrink(before);
       return missing(too_large);
@@ -149,7 +149,8 @@ std::string Page::html(const std::string& page_template, const std::string& vers
   }
   Json scene = {{"version", version},      {"palette", palette_json()}, {"types", types_},
                 {"graphs", graphs_},       {"variants", variants_},     {"loose", loose_},
-                {"artifacts", artifacts_}, {"left_out", left_out_},     {"blocks", Json::array()}};
+                {"artifacts", artifacts_}, {"left_out", left_out_},     {"blocks", Json::array()},
+                {"chains", chains_}};
   for (const Block& block : blocks_.all())
     scene["blocks"].push_back({{"type", to_string(block.type)}, {"count", block.count}});
   const std::string json = script_json(scene);

@@ -73,6 +73,7 @@ class Page {
   std::uint64_t max_bytes_;
   Json graphs_ = Json::array(), variants_ = Json::array(), loose_ = Json::array();
   Json types_ = Json::object(), artifacts_ = Json::object();
+  Json chains_ = Json::array();
   std::map<std::string, Wanted> wanted_;  // by digest
   Blocks blocks_;
   std::vector<std::string> left_out_;

@@ -58,6 +58,19 @@ std::string decimal(long long n, int exponent) {
   return (n < 0 ? "-" : "") + digits;
 }
 
+/// Which of the categories occur in layers that are coloured by an attribute of this name.
+std::vector<bool> used_categories(const std::vector<Layer>& scene, const Attribute& attribute) {
+  std::vector<bool> used(attribute.categories.size(), false);
+  for (const Layer& layer : scene) {
+    const Attribute* const own = layer.colour_by == attribute.name ? layer.find(attribute.name) : nullptr;
+    if (own == nullptr || own->categories.empty()) continue;
+    for (const double value : own->values) {
+      if (value < static_cast<double>(used.size())) used[static_cast<std::size_t>(value)] = true;
+    }
+  }
+  return used;
+}
+
 }  // namespace
 
 std::vector<Tick> ticks(ValueRange range) {
@@ -110,8 +123,9 @@ Legend::Legend(const std::vector<Layer>& scene, const Ranges& ranges, int width,
       ++coloured;
       if (attribute->categories.empty() || !listed.insert(attribute->name).second) continue;
       Block block{attribute->name, attribute->unit, {}, {}, {}};
+      const std::vector<bool> used = used_categories(scene, *attribute);
       for (std::size_t i = 0; i < attribute->categories.size(); ++i) {
-        block.entries.push_back({category(i), attribute->categories[i]});
+        if (used[i]) block.entries.push_back({category(i), attribute->categories[i]});
       }
       blocks_.push_back(std::move(block));
     }
