@@ -38,7 +38,29 @@ bool circumcenter(const std::array<Vec3, 4>& p, Vec3& out) {
   return true;
 }
 
+/// With Number = double: false when the triangle is so flat that cancellation may have spoilt the result.
+template <class Number>
+bool circumcenter(const std::array<Vec2, 3>& p, Vec2& out) {
+  const Number ax = Number(p[1].x) - Number(p[0].x), ay = Number(p[1].y) - Number(p[0].y),
+               bx = Number(p[2].x) - Number(p[0].x), by = Number(p[2].y) - Number(p[0].y);
+  const Number aa = ax * ax + ay * ay, bb = bx * bx + by * by, det = ax * by - ay * bx;
+  if constexpr (std::is_same_v<Number, double>) {
+    constexpr double flat = 1e-3;
+    if (!(det * det > flat * flat * aa * bb)) return false;
+  }
+  const Number scale = Number(2) * det;
+  out = p[0] + Vec2{CGAL::to_double(Number((aa * by - bb * ay) / scale)),
+                    CGAL::to_double(Number((bb * ax - aa * bx) / scale))};
+  return true;
+}
+
 }  // namespace
+
+Vec2 circumcenter(const std::array<Vec2, 3>& points) {
+  Vec2 center;
+  if (!circumcenter<double>(points, center)) circumcenter<CGAL::Exact_rational>(points, center);
+  return center;
+}
 
 Vec3 circumcenter(const std::array<Vec3, 4>& points) {
   Vec3 center;

@@ -3,6 +3,7 @@
 
 #include "types/enclosure_fit_type.hpp"
 #include "types/enclosure_type.hpp"
+#include "types/planar_types.hpp"
 #include "types/power_diagram_type.hpp"
 #include "types/robot_type.hpp"
 #include "types/surface_types.hpp"
@@ -13,6 +14,6 @@ BALLFLOW_PLUGIN(
     "types", "0.1.0", ballflow::node_entries<>(),
     (ballflow::type_entries<BallCounts, Balls, Bisection, Comparison, CoverCheck, CoverState, Enclosure,
                             EnclosureFit, Growth, LocalFeatureSize, MassProperties, MedialAxis, MeshReport,
-                            MinkowskiReport, NoiseReport, PointSet, PoleSet, PowerDiagram, Refinement, Robot,
-                            RobotSpheres, SampleAssignment, SimplicialComplex, SurfaceBallsReport,
-                            SurfaceReport, TopologyCheck, TopologyTable, TriangleMesh>()))
+                            MinkowskiReport, NoiseReport, PointSet, PoleSet, Polygon2, PowerDiagram,
+                            Refinement, Robot, RobotSpheres, SampleAssignment, SimplicialComplex,
+                            SurfaceBallsReport, SurfaceReport, TopologyCheck, TopologyTable, TriangleMesh>()))

@@ -96,6 +96,14 @@ class Artifact:
     def read_Balls(self, a):
         self.points, self.radii = a["centers"], a["radii"]
 
+    def read_Polygon2(self, a):
+        vertices, ends, parts = a["vertices"], a["ring_offsets"], a["component_offsets"]
+        self.points = [(x, y, 0) for x, y in vertices]
+        self.rings = [vertices[ends[i]:ends[i + 1]] for i in range(len(ends) - 1)]
+        self.components = [self.rings[parts[k]:parts[k + 1]] for k in range(len(parts) - 1)]
+        self.edges = [(first + i, first + (i + 1) % (end - first))
+                      for first, end in zip(ends, ends[1:]) for i in range(end - first)]
+
     def read_PoleSet(self, a):
         self.points, self.radii = a["centers"], a["radii"]
         self.point_codes = ("label", a["labels"])
@@ -422,6 +430,52 @@ def check_ma(data, artifact):
     same([floats(line[2:]) for line in lines[1:1 + n]], artifact.balls(), "v")
     same([tuple(map(int, line[2:].split())) for line in lines[1 + n:1 + n + m]], edges, "e")
     same([tuple(map(int, line[2:].split())) for line in lines[1 + n + m:]], triangles, "f")
+
+
+def closed(components):
+    return [[ring + ring[:1] for ring in rings] for rings in components]
+
+
+def check_geojson(data, artifact):
+    found = json.loads(data)
+    same(found["type"], "MultiPolygon", "type")
+    rings = [[[tuple(point) for point in ring] for ring in rings] for rings in found["coordinates"]]
+    same(rings, closed(artifact.components), "coordinates")
+
+
+def check_wkt(data, artifact):
+    text = data.decode("ascii")
+    if not artifact.components:
+        return same(text, "MULTIPOLYGON EMPTY\n", "text")
+    require(text.startswith("MULTIPOLYGON (((") and text.endswith(")))\n"), "the ends")
+    rings = [[[floats(point) for point in ring.split(", ")] for ring in rings.split("), (")]
+             for rings in text[len("MULTIPOLYGON ((("):-len(")))\n")].split(")), ((")]
+    same(rings, closed(artifact.components), "coordinates")
+
+
+def check_poly2d(data, artifact):
+    lines = data.decode("ascii").splitlines()
+    same(lines[0], str(len(artifact.rings)), "number of rings")
+    at = 1
+    for ring in artifact.rings:
+        same(lines[at], str(len(ring)), "number of points")
+        same([floats(line) for line in lines[at + 1:at + 1 + len(ring)]], ring, "points")
+        at += 1 + len(ring)
+    same(at, len(lines), "lines")
+
+
+def check_svg(data, artifact):
+    root = ElementTree.fromstring(data)
+    group, = root
+    name = "{http://www.w3.org/2000/svg}"
+    same((root.tag, group.tag), (name + "svg", name + "g"), "elements")
+    same(group.get("transform"), "scale(1 -1)", "transform")
+    if artifact.type == "Balls":
+        found = [(float(c.get("cx")), float(c.get("cy")), float(c.get("r"))) for c in group]
+        return same(found, [(x, y, r) for x, y, _, r in artifact.balls()], "circles")
+    found = [[[floats(point) for point in ring.split("L")] for ring in path.get("d")[1:-1].split("ZM")]
+             for path in group]
+    same(found, artifact.components, "paths")
 
 
 def check_sph(data, artifact):

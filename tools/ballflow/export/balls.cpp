@@ -28,7 +28,8 @@ TypeFormats balls_formats() {
            format<Balls, poly_data, write_ma>("ma"),
            format<Balls, poly_data, write_sph>("sph"),
            format<Balls, poly_data, write_yaml>("yaml"),
-           format<Balls, poly_data, write_urdf>("urdf")}};
+           format<Balls, poly_data, write_urdf>("urdf"),
+           format<Balls, poly_data, write_svg>("svg")}};
 }
 
 }  // namespace ballflow

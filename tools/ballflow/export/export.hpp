@@ -3,7 +3,7 @@
 // clang-format off
 //   PointSet           ply xyz csv off vtp npy glb
 //   TriangleMesh       ply obj off stl vtp glb
-//   Balls              ply csv obj vtp npy glb ma sph yaml urdf
+//   Balls              ply csv obj vtp npy glb ma sph yaml urdf svg   svg: as seen from above
 //   PoleSet            ply csv vtp npy glb           label: 0 unlabelled, 1 inner, 2 outer
 //   LocalFeatureSize   csv ply vtp npy glb           radius: D^, the distance to the nearest pole
 //   Growth             csv ply vtp npy glb           grown balls; stop: 0 wish, 1 poles, 2 Gabriel, 3 common
@@ -14,12 +14,13 @@
 //   SurfaceReport      json ply vtp glb              evidence: 0 alpha-shape, 1 closes a gap, 2 a hole,
 //                                                    3 contradicted by poles; ply also with colours
 //   RobotSpheres       urdf srdf curobo xrdf foam mjcf csv   yml is curobo, xml is mjcf
+//   Polygon2           svg geojson wkt poly2d ply obj vtp glb
 //   every type         json safetensors              summary and shapes; the artifact, byte for byte
 // clang-format on
 //
 // The first format of a line is the default; it is json where there is no other. formats.hpp says what each
-// has room for: only ply, vtp, ma, sph, csv, npy, yaml and urdf keep radii, only ply, obj, vtp, glb and ma
-// edges. A SimplicialComplex is written without interior triangles and without sides of triangles, which
+// has room for: only ply, vtp, ma, sph, csv, npy, yaml, urdf and svg keep radii, only ply, obj, vtp, glb and
+// ma edges. A SimplicialComplex is written without interior triangles and without sides of triangles, which
 // cannot be seen, except in ma.
 #pragma once
 

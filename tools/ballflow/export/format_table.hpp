@@ -45,6 +45,7 @@ TypeFormats sample_assignment_formats();
 TypeFormats surface_report_formats();
 TypeFormats robot_formats();
 TypeFormats robot_spheres_formats();
+TypeFormats polygon2_formats();
 
 /// What every type can be written as.
 std::vector<Format> generic_formats();

@@ -5,6 +5,7 @@
 #include "ballflow/artifact.hpp"
 #include "ballflow/output_file.hpp"
 #include "export/poly_data.hpp"
+#include "types/polygon2.hpp"
 
 namespace ballflow {
 
@@ -45,6 +46,16 @@ void write_sph(const PolyData& data, OutputFile& out);
 /// Collision spheres of one link, named "link": in the layout of cuRobo's robot files, and as URDF.
 void write_yaml(const PolyData& data, OutputFile& out);
 void write_urdf(const PolyData& data, OutputFile& out);
+
+/// Balls as SVG: a circle for each, as seen from above, y upwards.
+void write_svg(const PolyData& data, OutputFile& out);
+
+/// Polygons as ReadPolygon reads them: SVG (a path for each component, y upwards by a transform), GeoJSON and
+/// WKT (MULTIPOLYGON, the first point of a ring repeated at its end), and the numbers of rings and points.
+void write_svg(const geometry::Polygon2& polygon, OutputFile& out);
+void write_geojson(const geometry::Polygon2& polygon, OutputFile& out);
+void write_wkt(const geometry::Polygon2& polygon, OutputFile& out);
+void write_poly2d(const geometry::Polygon2& polygon, OutputFile& out);
 
 /// glTF 2.0 binary: the layers of the artifact that the viewer shows at first, in the same colours; floats.
 /// Up to 20 000 balls are nodes with one sphere as their mesh (translation is the centre, scale the radius);

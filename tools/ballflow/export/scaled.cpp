@@ -22,7 +22,8 @@ const std::vector<Lengths>& lengths_of_types() {
   static const std::vector<Lengths> types = {
       {"Balls", {"centers", "radii"}},       {"Growth", {"centers", "radii", "grown_radii", "limits"}},
       {"MedialAxis", {"vertices", "radii"}}, {"PointSet", {"points"}},
-      {"PoleSet", {"centers", "radii"}},     {"TriangleMesh", {"vertices"}}};
+      {"PoleSet", {"centers", "radii"}},     {"Polygon2", {"vertices"}},
+      {"TriangleMesh", {"vertices"}}};
   return types;
 }
 

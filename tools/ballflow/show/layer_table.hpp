@@ -28,5 +28,6 @@ TypeLayers robot_layers();
 TypeLayers robot_spheres_layers();
 TypeLayers sample_assignment_layers();
 TypeLayers surface_report_layers();
+TypeLayers polygon2_layers();
 
 }  // namespace ballflow::show

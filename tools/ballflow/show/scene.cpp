@@ -23,7 +23,8 @@ const std::vector<TypeLayers>& table() {
                                                 surface_report_layers(),
                                                 enclosure_layers(),
                                                 robot_layers(),
-                                                robot_spheres_layers()};
+                                                robot_spheres_layers(),
+                                                polygon2_layers()};
   return types;
 }
 

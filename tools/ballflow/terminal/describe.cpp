@@ -220,6 +220,12 @@ std::string describe(const OutputEntry& output) {
          return text;
        }},
       {"MinkowskiReport", minkowski},
+      {"Polygon2",
+       [](const Json& s) {
+         std::string text = counted(s, "components", "polygon");
+         if (s.at("holes") != 0) text += " with " + counted(s, "holes", "hole");
+         return text + ", " + number(s, "vertices") + " vertices, area " + rounded(s, "area");
+       }},
       {"MeshReport", mesh_report},
       {"Robot", robot},
       {"RobotSpheres", robot_spheres},

@@ -4,6 +4,7 @@
 
 #include "ballflow/error.hpp"
 #include "sealed.hpp"
+#include "types/planar_types.hpp"
 #include "types/surface_types.hpp"
 
 namespace ballflow::show {
@@ -42,6 +43,18 @@ TEST(scene, shows_balls_with_their_radii) {
 TEST(scene, leaves_layers_without_elements_out) {
   EXPECT_TRUE(shown(Balls{}).empty());
   EXPECT_TRUE(bounding_box({}).empty());
+}
+
+TEST(scene, draws_the_rings_of_polygons) {
+  Polygon2 polygon;
+  polygon.vertices = {{0, 0}, {9, 0}, {0, 9}, {1, 1}, {1, 2}, {2, 1}};
+  polygon.ring_offsets = {0, 3, 6};
+  polygon.component_offsets = {0, 2};
+  const auto layers = shown(polygon);
+  ASSERT_EQ(names(layers), Names{"polygon"});
+  EXPECT_EQ(layers[0].segments,
+            (std::vector<std::array<std::uint32_t, 2>>{{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}}));
+  EXPECT_EQ(layers[0].find("ring")->values, (std::vector<double>{0, 0, 0, 1, 1, 1}));
 }
 
 TEST(scene, tells_inner_from_outer_poles) {

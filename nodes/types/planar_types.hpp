@@ -1,0 +1,14 @@
+// Shapes in the plane as types of artifacts: for those who take or show them.
+#pragma once
+
+#include "types/polygon2.hpp"
+#include "types/type_of.hpp"
+
+namespace ballflow {
+
+template <>
+struct TypeOf<geometry::Polygon2> {
+  static void declare(TypeDecl<geometry::Polygon2>& d);
+};
+
+}  // namespace ballflow
