@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "robot/load_robot_spheres.hpp"
 
@@ -12,6 +13,30 @@ std::string listed(const std::vector<std::string>& names) {
   std::string text;
   for (std::size_t i = 0; i < names.size() && i < 30; ++i) text += (i == 0 ? "" : ", ") + names[i];
   return names.size() > 30 ? text + " and " + std::to_string(names.size() - 30) + " more" : text;
+}
+
+/// Points of the surface and of voids inside that are in no ball.
+std::vector<Vec3> open_points(const Enclosure& enclosure) {
+  std::vector<Vec3> points(enclosure.open_points.begin(), enclosure.open_points.end());
+  for (std::size_t i = 0; i < enclosure.void_points.size(); ++i) {
+    if (enclosure.void_places[i] != static_cast<std::uint8_t>(VoidPlace::outside))
+      points.push_back(enclosure.void_points[i]);
+  }
+  return points;
+}
+
+void add_open_points(RobotSpheres& spheres, const std::vector<std::size_t>& links,
+                     const std::vector<Enclosure>& enclosures) {
+  std::vector<std::vector<Vec3>> by_link(spheres.links());
+  for (std::size_t i = 0; i < links.size(); ++i) by_link[links[i]] = open_points(enclosures[i]);
+  std::vector<std::int64_t> ends;
+  std::vector<Vec3> all;
+  for (const std::vector<Vec3>& points : by_link) {
+    all.insert(all.end(), points.begin(), points.end());
+    ends.push_back(static_cast<std::int64_t>(all.size()));
+  }
+  spheres.open_ends = std::move(ends);
+  spheres.open_points = std::move(all);
 }
 
 }  // namespace
@@ -63,13 +88,18 @@ RobotSpheres with_balls(const RobotTree& tree, const std::vector<std::vector<Vec
 }
 
 RobotSpheres robot_spheres(const Robot& robot, const std::vector<Balls>& balls,
-                           const RobotSpheresOptions& options, Monitor& monitor) {
+                           const std::vector<Enclosure>& enclosures, const RobotSpheresOptions& options,
+                           Monitor& monitor) {
   const std::vector<std::string> names =
       options.links.empty() ? links_with_surface(robot) : names_in(options.links);
   if (names.size() != balls.size())
     throw InputError(std::to_string(balls.size()) + " lists of balls are connected for " +
                          std::to_string(names.size()) + " links: " + listed(names),
                      "connect one for each link, in this order, or name the links: links");
+  if (!enclosures.empty() && enclosures.size() != balls.size())
+    throw InputError(std::to_string(enclosures.size()) + " verdicts are connected for " +
+                         std::to_string(balls.size()) + " lists of balls",
+                     "connect one for each list of balls, in the same order, or none");
   const std::vector<std::size_t> links = links_named(robot, names);
   std::vector<std::vector<Vec3>> centers(robot.links());
   std::vector<std::vector<double>> radii(robot.links());
@@ -78,6 +108,7 @@ RobotSpheres robot_spheres(const Robot& robot, const std::vector<Balls>& balls,
     radii[links[i]].assign(balls[i].radii.begin(), balls[i].radii.end());
   }
   RobotSpheres result = with_balls(robot, centers, radii);
+  if (!enclosures.empty()) add_open_points(result, links, enclosures);
   UntestedPairs pairs = untested_pairs(result, options.pairs, monitor);
   result.pair_links = std::move(pairs.links);
   result.pair_reasons = std::move(pairs.reasons);

@@ -6,6 +6,7 @@
 
 #include "base/monitor.hpp"
 #include "robot/self_collision.hpp"
+#include "types/enclosure.hpp"
 #include "types/robot.hpp"
 #include "types/robot_spheres.hpp"
 
@@ -28,10 +29,12 @@ std::size_t link_named(const RobotTree& tree, const std::string& name);
 /// Names of the links that have triangles, in the order of the robot.
 std::vector<std::string> links_with_surface(const Robot& robot);
 
-/// Puts lists of balls, each in the frame of its link, together. Throws InputError where there are more or
-/// fewer lists than links.
+/// Puts lists of balls, each in the frame of its link, together, with the points that `enclosures` tells of
+/// the same links; none of these where nothing was proven. Throws InputError where there are more or fewer
+/// lists than links.
 RobotSpheres robot_spheres(const Robot& robot, const std::vector<Balls>& balls,
-                           const RobotSpheresOptions& options, Monitor& monitor = no_monitor());
+                           const std::vector<Enclosure>& enclosures, const RobotSpheresOptions& options,
+                           Monitor& monitor = no_monitor());
 
 /// The same from balls by link, without pairs.
 RobotSpheres with_balls(const RobotTree& tree, const std::vector<std::vector<Vec3>>& centers,

@@ -3,6 +3,7 @@
 #include <ballflow/sdk.hpp>
 
 #include "types/artifact_types.hpp"
+#include "types/enclosure_type.hpp"
 #include "types/robot_type.hpp"
 
 namespace ballflow::nodes {
@@ -14,11 +15,12 @@ using geometry::SelfCollisionOptions;
 struct RobotSpheres {
   In<geometry::Robot> robot;
   InList<geometry::Balls> balls;
+  InList<geometry::Enclosure> enclosures;
   Out<geometry::RobotSpheres> spheres;
   RobotSpheresOptions options;
 
   static void declare(NodeDecl<RobotSpheres>& d) {
-    d.id("RobotSpheres", 1)
+    d.id("RobotSpheres", 2)
         .summary("Puts the balls of the links of a robot together, and lists pairs that need no test.");
     d.doc(
         "Pairs of links that need no test against each other: adjacent ones, pairs whose balls meet in the "
@@ -31,7 +33,13 @@ struct RobotSpheres {
     d.memory(1 << 20, 4);
     d.input("robot", &RobotSpheres::robot).doc("links and joints");
     d.input("balls", &RobotSpheres::balls).doc("for each link of links, in the frame of the link, metres");
-    d.output("spheres", &RobotSpheres::spheres).doc("links with balls, joints, pairs");
+    d.input("enclosures", &RobotSpheres::enclosures)
+        .optional()
+        .doc(
+            "for each link of links, whether its balls contain it: points that they leave out go with the "
+            "balls");
+    d.output("spheres", &RobotSpheres::spheres)
+        .doc("links with balls, joints, pairs, points that are left out");
     d.param("links", &RobotSpheres::options, &RobotSpheresOptions::links)
         .doc(
             "names of the links, separated by commas or a JSON list, in the order of balls; empty: those "
@@ -44,7 +52,8 @@ struct RobotSpheres {
   }
   void run(RunContext& context) {
     ContextMonitor monitor(context);
-    spheres = geometry::robot_spheres(*robot, {balls.begin(), balls.end()}, options, monitor);
+    spheres = geometry::robot_spheres(*robot, {balls.begin(), balls.end()},
+                                      {enclosures.begin(), enclosures.end()}, options, monitor);
   }
 };
 

@@ -63,7 +63,7 @@ void TypeOf<geometry::Robot>::declare(TypeDecl<geometry::Robot>& d) {
 
 void TypeOf<geometry::RobotSpheres>::declare(TypeDecl<geometry::RobotSpheres>& d) {
   using T = geometry::RobotSpheres;
-  d.id("RobotSpheres", 1)
+  d.id("RobotSpheres", 2)
       .doc("Balls for the links of a robot, and which links need not be tested against each other.");
   declare_tree(d);
   d.array("ball_ends", &T::ball_ends).length("l").doc("where the balls of each link end");
@@ -74,11 +74,18 @@ void TypeOf<geometry::RobotSpheres>::declare(TypeDecl<geometry::RobotSpheres>& d
       .length("p")
       .doc("0 adjacent, 1 meeting in the default pose, 2 in every pose tried, 3 in none");
   d.scalar("poses", &T::poses).doc("poses that were tried; 0: pairs were not looked for");
+  d.array("open_ends", &T::open_ends)
+      .length("k")
+      .doc("where the points of each link end that are not covered");
+  d.array("open_points", &T::open_points)
+      .length("o")
+      .doc("points of links that no ball covers, in their frames, metres; of surfaces and of voids inside");
   d.summary("name", "of the robot").summary("links", "how many");
   d.summary("links_with_balls", "how many have any").summary("balls", "of all links");
   d.summary("most_balls", "of one link").summary("untested_pairs", "pairs of links that need no test");
   d.summary("pairs_always", "of these, pairs that met in every pose tried, and are not adjacent");
   d.summary("pairs_never", "pairs that met in no pose tried").summary("poses", "that were tried");
+  d.summary("open_points", "points of links that no ball covers; null where nothing was proven or tried");
   d.summarize([](const T& v) {
     std::int64_t with = 0, most = 0, always = 0, never = 0;
     for (std::size_t i = 0; i < v.links(); ++i) {
@@ -90,15 +97,18 @@ void TypeOf<geometry::RobotSpheres>::declare(TypeDecl<geometry::RobotSpheres>& d
       always += reason == static_cast<std::uint8_t>(geometry::PairReason::always) ? 1 : 0;
       never += reason == static_cast<std::uint8_t>(geometry::PairReason::never) ? 1 : 0;
     }
-    return Summary{{"name", std::string(geometry::view(v.name))},
-                   {"links", static_cast<std::int64_t>(v.links())},
-                   {"links_with_balls", with},
-                   {"balls", static_cast<std::int64_t>(v.radii.size())},
-                   {"most_balls", most},
-                   {"untested_pairs", static_cast<std::int64_t>(v.pair_links.size())},
-                   {"pairs_always", always},
-                   {"pairs_never", never},
-                   {"poses", v.poses}};
+    return Summary{
+        {"name", std::string(geometry::view(v.name))},
+        {"links", static_cast<std::int64_t>(v.links())},
+        {"links_with_balls", with},
+        {"balls", static_cast<std::int64_t>(v.radii.size())},
+        {"most_balls", most},
+        {"untested_pairs", static_cast<std::int64_t>(v.pair_links.size())},
+        {"pairs_always", always},
+        {"pairs_never", never},
+        {"poses", v.poses},
+        {"open_points", v.open_ends.empty() ? SummaryValue(nullptr)
+                                            : SummaryValue(static_cast<std::int64_t>(v.open_points.size()))}};
   });
   d.check([](const T& v) { return geometry::broken_invariant(v); });
 }

@@ -40,6 +40,18 @@ std::string broken_invariant(const RobotSpheres& spheres) {
     if (!is_finite(spheres.centers[i]) || !std::isfinite(spheres.radii[i]) || spheres.radii[i] < 0)
       return "ball " + std::to_string(i) + " has a centre or radius that is no number, or a negative radius";
   }
+  if (spheres.open_ends.empty() ? !spheres.open_points.empty() : spheres.open_ends.size() != spheres.links())
+    return "not every link has a list of points that are not covered";
+  before = 0;
+  for (const std::int64_t end : spheres.open_ends) {
+    if (end < before) return "a list of points that are not covered has no end";
+    before = end;
+  }
+  if (before != static_cast<std::int64_t>(spheres.open_points.size()))
+    return "points that are not covered belong to no link";
+  for (const Vec3& p : spheres.open_points) {
+    if (!is_finite(p)) return "a point that is not covered is nowhere";
+  }
   for (std::size_t i = 0; i < spheres.pair_links.size(); ++i) {
     const auto [a, b] = spheres.pair_links[i];
     if (a < 0 || b <= a || b >= static_cast<std::int32_t>(spheres.links()) ||

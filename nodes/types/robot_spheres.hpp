@@ -28,6 +28,10 @@ struct RobotSpheres : RobotTree {
   Array<std::array<std::int32_t, 2>> pair_links;  // p x 2: links, the first before the second; ascending
   Array<std::uint8_t> pair_reasons;               // p: PairReason
   std::int64_t poses = 0;                         // that were tried; 0: pairs were not looked for
+  // Where a proof that the balls contain their links failed: points of surfaces that are not covered, one of
+  // each such triangle, and of voids inside. Both empty where nothing was proven or tried.
+  Array<std::int64_t> open_ends;  // l: where those of each link end
+  Array<Vec3> open_points;        // in the frame of their link, metres
 
   std::size_t links() const { return ball_ends.size(); }
 };

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { ballflow, folder, graphs, shot, startChromium } from './support.mjs';
+import { ballflow, folder, graphs, likeness, shot, startChromium } from './support.mjs';
 
 const path = join(folder, 'page.html');
 let browser, page, robot;
@@ -102,6 +102,34 @@ test('mesh and spheres are shown together, the spheres translucent, parts in fra
   assert.deepEqual(layers.filter(({ visible, shape }) => visible && shape !== 'points').map(({ key }) => key).sort(), ['robot/links', 'spheres/spheres']);
   assert.ok(layers.find(({ key }) => key === 'spheres/spheres').opacity < 0.5);
   assert.equal(layers.find(({ key }) => key === 'robot/links').opacity, 1);
+});
+
+test('points that the spheres leave out are red, and belong to no sphere', async () => {
+  const layer = (await page.evaluate('ballflow.layers()')).find(({ key }) => key === 'spheres/not covered');
+  assert.ok(layer.visible);
+  const open = await points('spheres/not covered');
+  assert.ok(open.length > 10);
+  const all = Object.entries(robot.spheres).flatMap(([link, spheres]) => spheres.map((s) => [...placed(link, s.slice(0, 3), {}), s[3], link]));
+  // Each is outside of the spheres of its own link, and the base, of which a fifth is outside, has some.
+  const links = await page.evaluate(async () => {
+    const { attributes } = Object.values(JSON.parse(document.getElementById('ballflow-scene').textContent).artifacts)
+      .find(({ type }) => type === 'RobotSpheres').layers.find(({ name }) => name === 'not covered');
+    return attributes[0].categories.filter((_, i) => attributes[0].counts[i] > 0);
+  });
+  assert.deepEqual(links, ['base', 'forearm', 'hand']);
+  for (const p of open) {
+    const near = all.filter(([x, y, z, r]) => apart(p, [x, y, z]) < r - 1e-6).map((sphere) => sphere[4]);
+    assert.ok(!links.every((link) => near.includes(link)), `${p} is inside`);
+  }
+  await page.click('[data-layer="spheres/spheres"] input[type=checkbox]');
+  await settled();
+  const places = await page.evaluate((list) => list.map((p) => ballflow.project(p)), open);
+  const covered = await page.evaluate((list) => list.map(({ x, y }) => document.elementFromPoint(x, y)?.tagName !== 'CANVAS'), places);
+  const picture = await shot(page);
+  const red = places.filter(({ x, y }, i) => !covered[i] && likeness(picture.at(x, y), [227, 0, 15]) > 0.98);
+  assert.ok(red.length >= 3, `${red.length} of ${open.length} are seen`);
+  await page.click('[data-layer="spheres/spheres"] input[type=checkbox]');
+  await settled();
 });
 
 test('sliders move mesh and spheres as the description says', async () => {

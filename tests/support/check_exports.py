@@ -669,8 +669,15 @@ def placed_by(frame, p):
 
 
 def check_robot_glb(glb, artifact):
-    """Meshes or spheres of the links where the joints put them."""
+    """Meshes, spheres and points of the links where the joints put them."""
     roots = list(glb.roots())
+    if artifact.type == "RobotSpheres" and artifact.arrays["open_points"]:
+        attributes, _, width = glb.primitive(roots.pop()[0])
+        ends = [0] + artifact.arrays["open_ends"]
+        expected = [placed_by(f, p) for i, f in enumerate(artifact.frames())
+                    for p in artifact.arrays["open_points"][ends[i]:ends[i + 1]]]
+        same((width, len(attributes["POSITION"])), (1, len(expected)), "points")
+        require(all(math.dist(a, b) < 1e-6 for a, b in zip(attributes["POSITION"], expected)), "points")
     same(len(roots), 1, "nodes")
     root, children = roots[0]
     if artifact.type == "Robot":

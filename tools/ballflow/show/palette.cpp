@@ -26,7 +26,7 @@ constexpr std::array<Colour, 10> category_colours = {
     rgb(0x3f90da), rgb(0xffa90e), rgb(0xbd1f01), rgb(0x94a4a2), rgb(0x832db6),
     rgb(0xa96b59), rgb(0xe76300), rgb(0xb9ac70), rgb(0x717581), rgb(0x92dadd)};
 
-constexpr std::array<std::pair<std::string_view, Colour>, 9> plain_by_name = {{
+constexpr std::array<std::pair<std::string_view, Colour>, 11> plain_by_name = {{
     {"mesh", rgb(0xb9c0c9)},
     {"inner poles", rgb(0x3f90da)},
     {"inner poles as balls", rgb(0x3f90da)},
@@ -36,6 +36,8 @@ constexpr std::array<std::pair<std::string_view, Colour>, 9> plain_by_name = {{
     {"singular triangles", rgb(0xffa90e)},
     {"singular edges", rgb(0xbd1f01)},
     {"isolated vertices", rgb(0x832db6)},
+    {"not covered", rgb(0xe3000f)},
+    {"voids", rgb(0xe3000f)},
 }};
 
 constexpr std::array<std::pair<Shape, Colour>, 4> plain_by_shape = {{

@@ -153,16 +153,38 @@ TEST(robot_spheres, lists_go_to_links_by_order_or_name) {
   RobotSpheresOptions options;
   options.pairs.poses = 0;
   options.links = "hand,base";
-  RobotSpheres spheres = robot_spheres(arm(), {ball(1), ball(2)}, options);
+  RobotSpheres spheres = robot_spheres(arm(), {ball(1), ball(2)}, {}, options);
   EXPECT_EQ(balls_of(spheres, link_named(arm(), "hand")).radii[0], 1);
   EXPECT_EQ(balls_of(spheres, link_named(arm(), "base")).radii[0], 2);
   options.links = R"(["base","hand"])";
-  spheres = robot_spheres(arm(), {ball(1), ball(2)}, options);
+  spheres = robot_spheres(arm(), {ball(1), ball(2)}, {}, options);
   EXPECT_EQ(balls_of(spheres, link_named(arm(), "hand")).radii[0], 2);
   for (const char* wrong : {"hand", "hand,hand", "hand,leg", "[\"hand\"", ""}) {
     options.links = wrong;
-    EXPECT_THROW(robot_spheres(arm(), {ball(1), ball(2)}, options), InputError) << wrong;
+    EXPECT_THROW(robot_spheres(arm(), {ball(1), ball(2)}, {}, options), InputError) << wrong;
   }
+}
+
+TEST(robot_spheres, points_that_are_left_out_go_with_their_links) {
+  const Balls ball{{Vec3{0, 0, 0}}, {1}, {}, {}};
+  RobotSpheresOptions options;
+  options.pairs.poses = 0;
+  options.links = "hand,base";
+  Enclosure hand, base;
+  hand.open_points = {{1, 2, 3}};
+  hand.open_triangles = {4};
+  hand.open_why = {0};
+  base.void_points = {{4, 5, 6}, {7, 8, 9}};
+  base.void_places = {0, 1};  // one outside of the solid, which matters not, one inside
+  const RobotSpheres spheres = robot_spheres(arm(), {ball, ball}, {hand, base}, options);
+  EXPECT_EQ(broken_invariant(spheres), "");
+  ASSERT_EQ(spheres.open_points.size(), 2u);
+  EXPECT_EQ(spheres.open_points[0], (Vec3{7, 8, 9})) << "the base is the first link of the robot";
+  EXPECT_EQ(spheres.open_points[1], (Vec3{1, 2, 3}));
+  EXPECT_EQ(spheres.open_ends[link_named(arm(), "base")], 1);
+  EXPECT_EQ(spheres.open_ends[link_named(arm(), "hand")], 2);
+  EXPECT_TRUE(robot_spheres(arm(), {ball, ball}, {}, options).open_ends.empty());
+  EXPECT_THROW(robot_spheres(arm(), {ball, ball}, {hand}, options), InputError);
 }
 
 /// By name and reason.
@@ -182,7 +204,7 @@ TEST(self_collision, pairs_are_told_apart_by_poses) {
   std::vector<Balls> balls;
   for (std::size_t link = 0; link < 6; ++link) balls.push_back(balls_of(loaded, link));
   RobotSpheresOptions options;
-  const RobotSpheres spheres = robot_spheres(arm(), balls, options);
+  const RobotSpheres spheres = robot_spheres(arm(), balls, {}, options);
   EXPECT_EQ(broken_invariant(spheres), "");
   EXPECT_EQ(spheres.poses, 2000);
   const std::string pairs = pairs_of(spheres);
@@ -198,11 +220,12 @@ TEST(self_collision, pairs_are_told_apart_by_poses) {
   // The same for any number of threads, and for a second time.
   for (const std::size_t threads : {1, 4}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    EXPECT_EQ(pairs_of(robot_spheres(arm(), balls, options)), pairs);
+    EXPECT_EQ(pairs_of(robot_spheres(arm(), balls, {}, options)), pairs);
   }
   // Balls as large as the robot meet always.
   for (Balls& one : balls) one = {{Vec3{0, 0, 0}}, {1.0}, {}, {}};
-  EXPECT_NE(pairs_of(robot_spheres(arm(), balls, options)).find("base-forearm always\n"), std::string::npos);
+  EXPECT_NE(pairs_of(robot_spheres(arm(), balls, {}, options)).find("base-forearm always\n"),
+            std::string::npos);
 }
 
 }  // namespace

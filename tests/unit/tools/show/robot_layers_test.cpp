@@ -4,6 +4,7 @@
 
 #include "sealed.hpp"
 #include "show/page/layer_json.hpp"
+#include "show/palette.hpp"
 #include "show/scene.hpp"
 #include "types/robot_type.hpp"
 
@@ -82,6 +83,27 @@ TEST(robot_layers, spheres_have_the_colours_of_their_links_and_the_same_chain) {
   EXPECT_EQ(balls.find("radius")->unit, "m");
   const auto links = layers_of(*test::sealed(with_triangles()));
   EXPECT_EQ(chain_json(*balls.chain), chain_json(*links[0].chain));
+}
+
+TEST(robot_layers, points_that_spheres_leave_out_are_red_and_move_with_their_links) {
+  RobotSpheres spheres = with_spheres();
+  spheres.open_points = {{0, 0, 0}, {0, 0, 3}};
+  spheres.open_ends = {1, 1, 1, 1, 2};  // of the tray and of the base
+  const ArtifactPtr artifact = test::sealed(spheres);
+  const auto layers = layers_of(*artifact);
+  ASSERT_EQ(layers.size(), 2u);
+  const Layer& open = layers[1];
+  EXPECT_EQ(broken_invariant(open), "");
+  EXPECT_EQ(open.name, "not covered");
+  EXPECT_EQ(open.shape, Shape::points);
+  EXPECT_EQ(open.vertices[0], (Vec3{2.25, 0, 1}));
+  EXPECT_EQ(open.vertices[1], (Vec3{0, 0, 3}));
+  EXPECT_EQ(open.frames[0], layers[0].frames[0]);
+  EXPECT_EQ(open.frames[1], layers[0].frames[2]);
+  EXPECT_EQ(open.colour_by, "");
+  const Colour colour = plain(open);
+  EXPECT_GT(colour.red, 200);
+  EXPECT_LT(colour.green + colour.blue, 60);
 }
 
 TEST(robot_layers, a_chain_has_a_joint_for_what_moves_by_itself) {

@@ -1,5 +1,6 @@
 // Robot: the surfaces of all links, where they are when every joint is at 0 or at the limit nearest to it.
-// RobotSpheres: their balls, in the same pose. Both coloured by link, in equal colours.
+// RobotSpheres: their balls, in the same pose, and the points that these leave out. Links and balls are
+// coloured by link, in equal colours.
 #include <algorithm>
 
 #include "show/layer_table.hpp"
@@ -73,12 +74,16 @@ std::vector<Layer> layers_of_robot_spheres(const Artifact& artifact) {
   Layer balls;
   balls.name = "spheres";
   balls.shape = Shape::balls;
-  LinkedLayers(spheres).place(balls, spheres.centers, spheres.ball_ends);
+  const LinkedLayers links(spheres);
+  links.place(balls, spheres.centers, spheres.ball_ends);
   balls.radii = spheres.radii;
   balls.attributes.push_back(radius_attribute(spheres.radii.span()));
   balls.attributes.back().unit = "m";
   balls.colour_by = "link";
-  return {std::move(balls)};
+  Layer open;
+  open.name = "not covered";
+  links.place(open, spheres.open_points, spheres.open_ends);
+  return {std::move(balls), std::move(open)};
 }
 
 }  // namespace
