@@ -1,152 +1,22 @@
 #include "minkowski/minkowski_sum.hpp"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
-#include <atomic>
-#include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "base/for_each_block.hpp"
-#include "base/index.hpp"
 #include "base/memory.hpp"
-#include "minkowski/containment_filter.hpp"
 #include "minkowski/power_triangulation.hpp"
+#include "minkowski/sum_lists.hpp"
 #include "minkowski/sums.hpp"
 
 namespace ballflow::geometry {
 namespace {
 
-void require_usable(const Balls& balls, const char* name) {
-  if (const std::string broken = broken_invariant(balls); !broken.empty()) {
-    throw InputError("input " + std::string(name) + ": " + broken, "repair or remove the ball");
-  }
-  const auto usable = [](double x) { return x == 0 || (std::abs(x) >= 1e-150 && std::abs(x) <= 1e150); };
-  for (std::size_t i = 0; i < balls.size(); ++i) {
-    const Vec3 c = balls.centers[i];
-    for (const double x : {c.x, c.y, c.z, balls.radii[i]}) {
-      if (usable(x)) continue;
-      char text[32];
-      std::snprintf(text, sizeof text, "%g", x);
-      throw InputError("input " + std::string(name) + ": ball " + std::to_string(i) +
-                           " has the coordinate or radius " + text +
-                           ", whose square leaves the range of doubles",
-                       "scale both inputs, or set tiny numbers to 0");
-    }
-  }
-}
-
 // Measured with bench_minkowski: a list of sums and its order take 72 bytes a sum, the triangulation 700
 // bytes a vertex. Of millions of pairs one in 20 is a vertex, of what is left by the filter one in four.
 constexpr double bytes_per_vertex = 700, bytes_per_pair = 72 + bytes_per_vertex / 20,
                  bytes_per_survivor = 72 + bytes_per_vertex / 4;
-
-/// How many sums fit into the memory, and have indices.
-std::int64_t most_sums(double bytes_per_sum, const MemoryLimit& memory) {
-  return static_cast<std::int64_t>(
-      std::min(memory.bytes / bytes_per_sum, static_cast<double>(most_indices - 1)));
-}
-
-/// `sums` would have to be triangulated, or `more` than that.
-void require_memory(std::int64_t sums, double bytes_per_sum, const MemoryLimit& memory, bool more = false) {
-  if (sums <= most_sums(bytes_per_sum, memory) && !more) return;
-  throw InputError(
-      (more ? "more than " : "") + std::to_string(sums) +
-          " sums of two balls would have to be triangulated, which takes about " +
-          size_text(bytes_per_sum * static_cast<double>(sums)) + "; " + memory.text(),
-      "prune the inputs more (a larger epsilon), use algorithm filtered or memory, or grant more "
-      "memory");
-}
-
-std::vector<Ball> all_sums(const Sums& sums, Monitor& monitor) {
-  require_memory(sums.pairs(), bytes_per_pair, MemoryLimit(monitor));
-  std::vector<Ball> all;
-  all.reserve(static_cast<std::size_t>(sums.pairs()));
-  sums.for_each(monitor, 0, 0.05, [&all](const Ball& sum) { all.push_back(sum); });
-  return all;
-}
-
-/// All sums but some that lie strictly inside another. At a point of such a ball the power to the one around
-/// it is smaller, so it does not contribute; and nothing else changes: a ball contributes or not whether or
-/// not balls that do not contribute are there, because below 0 the least power is that to a ball that does.
-///
-/// Pairs are looked at in parallel, and in effect one after the other: filters of successive parts of the
-/// stream that are merged in their order hold what one filter would, and so does what passes.
-std::vector<Ball> filtered_sums(const Sums& sums, Monitor& monitor) {
-  const std::size_t pairs = sums.bucket_pairs();
-  const auto make_filter = [&sums] {
-    return ContainmentFilter(sums.box(), std::clamp(static_cast<double>(sums.pairs()) / 16, 1.0, 0x1p18));
-  };
-  // Each part has a filter of its own: no more of these than are worth their 10 MB.
-  const std::size_t parts = std::clamp<std::size_t>(
-      std::min(pairs >> 16, static_cast<std::size_t>(tbb::this_task_arena::max_concurrency())), 1, 8);
-  std::vector<ContainmentFilter> filters;
-  for (std::size_t part = 0; part < parts; ++part) filters.push_back(make_filter());
-  constexpr std::size_t step =
-      4096;  // pairs of buckets between two looks at the monitor, less than a millisecond
-  const std::size_t part_size = (pairs + parts - 1) / parts;
-  std::atomic<std::size_t> seen{0};
-  tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t part) {
-    const std::size_t end = std::min(pairs, (part + 1) * part_size);
-    for (std::size_t first = part * part_size; first < end; first += step) {
-      const std::size_t last = std::min(end, first + step);
-      sums.for_each_bucket(first, last, [&filter = filters[part]](const Bucket& one, const Bucket& other) {
-        for (const Ball& ball : one.balls) filter.offer(ball + other.largest);
-        for (const Ball& ball : other.balls) filter.offer(one.largest + ball);
-      });
-      monitor.step(0.05 * static_cast<double>(seen += last - first) / static_cast<double>(pairs));
-    }
-  });
-  ContainmentFilter filter = std::move(filters[0]);
-  for (std::size_t part = 1; part < parts; ++part) filter.merge(filters[part]);
-  filters.clear();
-  filter.spread(monitor);
-
-  const MemoryLimit memory(monitor);
-  const std::int64_t most = most_sums(bytes_per_survivor, memory);
-  std::vector<std::vector<Ball>> left(blocks_of(pairs, step));
-  std::atomic<std::int64_t> count{0};
-  for_each_block(pairs, step, monitor, 0.05, 0.15,
-                 [&](std::size_t block, std::size_t first, std::size_t last) {
-                   std::vector<Ball> passed;
-                   sums.for_each_bucket(first, last, [&](const Bucket& one, const Bucket& other) {
-                     if (filter.contains(one.bound + other.bound)) return;
-                     for (const Ball& a : one.balls) {
-                       for (const Ball& b : other.balls) {
-                         const Ball sum = a + b;
-                         if (!filter.contains(sum)) passed.push_back(sum);
-                       }
-                     }
-                   });
-                   const auto size = static_cast<std::int64_t>(passed.size());
-                   if ((count += size) > most) require_memory(most, bytes_per_survivor, memory, true);
-                   left[block] = std::move(passed);
-                 });
-  std::vector<Ball> all;
-  all.reserve(static_cast<std::size_t>(count));
-  for (std::vector<Ball>& passed : left) {
-    all.insert(all.end(), passed.begin(), passed.end());
-    std::vector<Ball>().swap(passed);
-  }
-  return all;
-}
-
-Balls canonical(std::vector<Ball> sums) {
-  std::sort(sums.begin(), sums.end(), [](const Ball& a, const Ball& b) { return a.center < b.center; });
-  std::vector<Vec3> centers;
-  std::vector<double> radii;
-  centers.reserve(sums.size());
-  radii.reserve(sums.size());
-  for (const Ball& sum : sums) {
-    centers.push_back(sum.center);
-    radii.push_back(sum.radius);
-  }
-  return {std::move(centers), std::move(radii), {}, {}};
-}
 
 double surface_to_union(const Comparison* comparison) {
   if (comparison == nullptr) return 0;
@@ -197,7 +67,8 @@ MinkowskiSum minkowski_sum(const Balls& a, const Balls& b, const MinkowskiSumOpt
     result.report.survivors = static_cast<std::int64_t>(triangulation.vertices());
   } else {
     const bool all = options.algorithm == MinkowskiAlgorithm::time;
-    std::vector<Ball> left = all ? all_sums(sums, monitor) : filtered_sums(sums, monitor);
+    std::vector<Ball> left =
+        all ? all_sums(sums, bytes_per_pair, monitor) : filtered_sums(sums, bytes_per_survivor, monitor);
     result.report.survivors = static_cast<std::int64_t>(left.size());
     PartMonitor part(monitor, 0.15, 0.9);
     triangulation.insert(std::move(left), part);

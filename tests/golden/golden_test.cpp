@@ -50,6 +50,10 @@ const std::vector<Case>& cases() {
        {{"input", "shape:doubleTorus?n=2000"}, {"delta", "1"}},
        kNoTopology},
       {"gear_discs", "discs", {{"polygon", "polygon:gear"}}, kNoTopology},
+      {"gear_plus_star",
+       "minkowski_2d",
+       {{"a", "polygon:gear"}, {"b", "polygon:star?R=0.3"}, {"algorithm", "hierarchical"}},
+       kNoTopology},
       {"balls", "balls", {}, kNoTopology},  // a ring of balls and one ball apart: Betti 2 1 0
       {"minkowski_sum", "minkowski_sum",
        as_in_the_thesis({{"a", "shape:torus?n=2000"}, {"b", "shape:knot?n=3000&R=0.2"}}), kNoTopology},

@@ -1,0 +1,32 @@
+// The Minkowski sum of two unions of discs (thesis, 5.4).
+#pragma once
+
+#include "minkowski/minkowski_sum.hpp"
+
+namespace ballflow::geometry {
+
+/// How the sums that contribute are found. All ways give the same discs.
+enum class MinkowskiAlgorithm2 {
+  filtered,      // pairs are streamed through a filter that drops what lies inside another sum
+  quadratic,     // all pairs in one regular triangulation: algo_sq of the thesis
+  hierarchical,  // a tree of circumscribed discs over the larger set: algo_h, without insertion and removal
+};
+
+struct MinkowskiSum2Options {
+  MinkowskiAlgorithm2 algorithm = MinkowskiAlgorithm2::filtered;
+};
+
+struct MinkowskiSum2 {
+  Balls balls;  // ascending by center, z = 0
+  MinkowskiReport report;
+  // Algorithm hierarchical: pairs below nodes of the tree that contribute nothing, never looked at.
+  std::int64_t avoided = 0;
+};
+
+/// minkowski_sum of balls with z = 0: the same balls, from a triangulation of the plane.
+/// `touching_boundary` counts discs with an arc of their circle on the outline of the union.
+/// Throws InputError as minkowski_sum does, and for a center with z other than 0.
+MinkowskiSum2 minkowski_sum_2(const Balls& a, const Balls& b, const MinkowskiSum2Options& options = {},
+                              Monitor& monitor = no_monitor());
+
+}  // namespace ballflow::geometry

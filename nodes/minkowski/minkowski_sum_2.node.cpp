@@ -1,0 +1,69 @@
+#include "minkowski/minkowski_sum_2.hpp"
+
+#include <ballflow/sdk.hpp>
+#include <utility>
+
+#include "exact/cgal_version.hpp"
+#include "types/artifact_types.hpp"
+
+namespace ballflow::nodes {
+namespace {
+
+using geometry::MinkowskiAlgorithm2;
+using geometry::MinkowskiSum2Options;
+
+struct MinkowskiSum2 {
+  In<geometry::Balls> a, b;
+  Out<geometry::Balls> balls;
+  Out<geometry::MinkowskiReport> report;
+  MinkowskiSum2Options options;
+
+  static void declare(NodeDecl<MinkowskiSum2>& d) {
+    d.id("MinkowskiSum2", 1).summary("The Minkowski sum of two unions of discs: again a union of discs.");
+    d.doc(
+        "As MinkowskiSum, of balls with z = 0, and the same balls, from a triangulation of the plane: the "
+        "sums "
+        "of a disc of either set that have a point in the closed disc to which the power is strictly smaller "
+        "than to all other sums, decided exactly. Every algorithm gives the same discs. The summary of "
+        "`report` adds avoided, the pairs that the tree of algorithm hierarchical never looked at. Accepts "
+        "any "
+        "discs: none, one, equal, nested, on a line, radius 0. Refuses centers with another z, coordinates "
+        "and "
+        "radii that are not 0 and outside [1e-150, 1e150], and more sums than the memory holds.");
+    d.avoid_when(
+        "the sum of the polygons themselves is wanted: it is exact and quick with CGAL's minkowski_sum_2; "
+        "discs "
+        "pay off where shapes are discs already, or round.");
+    d.cites("kornberger2010", "5.3 and 5.4").cites("aurenhammer1988", "Lemma 1").cites("seidel1991", "2");
+    d.library("CGAL", geometry::cgal_version());
+    d.memory(std::uint64_t{128} << 20, 1500);
+    d.input("a", &MinkowskiSum2::a).doc("discs, model units: balls with z = 0");
+    d.input("b", &MinkowskiSum2::b).doc("the same; one disc at the origin grows the other set by its radius");
+    d.output("balls", &MinkowskiSum2::balls)
+        .doc("the contributing sums, ascending by x, y of the center, z = 0");
+    d.output("report", &MinkowskiSum2::report).doc("numbers of pairs and discs, bounding box");
+    d.choice(
+         "algorithm", &MinkowskiSum2::options, &MinkowskiSum2Options::algorithm,
+         {{MinkowskiAlgorithm2::filtered, "filtered",
+           "streams the pairs through a grid of large sums and triangulates those inside none of them"},
+          {MinkowskiAlgorithm2::quadratic, "quadratic", "triangulates all pairs: algo_sq of the thesis"},
+          {MinkowskiAlgorithm2::hierarchical, "hierarchical",
+           "passes by pairs below nodes of a quadtree whose discs around all contribute nothing: algo_h of "
+           "the thesis, without inserting and removing them"}})
+        .doc("how the sums are found; the discs are the same");
+  }
+
+  void run(RunContext& context) {
+    ContextMonitor monitor(context);
+    geometry::MinkowskiSum2 sum = geometry::minkowski_sum_2(*a, *b, options, monitor);
+    balls = std::move(sum.balls);
+    report.summary("avoided", sum.avoided);
+    report = sum.report;
+  }
+};
+
+}  // namespace
+
+const bf_node* minkowski_sum_2_entry() { return node_entry<MinkowskiSum2>(); }
+
+}  // namespace ballflow::nodes
