@@ -42,7 +42,13 @@ struct SpheresCli : testing::Test {
 
 TEST_F(SpheresCli, tells_what_spheres_leave_out_link_by_link) {
   const ProcessResult told = ballflow({"spheres", "robot:arm", "--check", "spheres:arm"});
-  EXPECT_EQ(told.exit_code, 0) << told.err;
+  EXPECT_EQ(told.exit_code, 1) << "the answer is no" << told.err;
+  EXPECT_EQ(ballflow({"spheres", "robot:arm", "--check", "spheres:arm", "--links", "left_finger", "--quiet"})
+                .exit_code,
+            0);
+  EXPECT_EQ(
+      ballflow({"spheres", "robot:arm", "--check", "spheres:arm", "--buffer", "0.1", "--quiet"}).exit_code,
+      0);
   EXPECT_NE(told.out.find("3 of 6 links enclosed by 9 spheres"), std::string::npos) << told.out;
   std::istringstream lines(told.out);
   std::string line, base, finger;
@@ -59,16 +65,19 @@ TEST_F(SpheresCli, writes_a_page_that_stands_alone) {
   write("cube.off", cube);
   write("s.csv", "link,x,y,z,radius\na,0.5,0.5,0.5,0.8661\nb.c,0,0,0,0.5\n");
   for (const char* const page : {"p.md", "p.html"}) {
-    const ProcessResult made = ballflow({"spheres", folder.file("r.urdf"), "--check", folder.file("s.csv"),
-                                         "--page", folder.file(page), "--quiet"});
-    EXPECT_EQ(made.exit_code, 0) << made.err;
+    const ProcessResult made =
+        ballflow({"spheres", folder.file("r.urdf"), "--check", folder.file("s.csv"), "--page",
+                  folder.file(page), "--picture", folder.file("p.png"), "--quiet"});
+    EXPECT_EQ(made.exit_code, 1) << made.err;
+    EXPECT_EQ(test::read_file(folder.file("p.png")).substr(1, 3), "PNG");
     EXPECT_EQ(made.out, "");
     const std::string text = test::read_file(folder.file(page));
-    for (const char* const part :
-         {"1 of 2 links enclosed by 2 spheres", "b.c", "r.urdf", "s.csv", "SHA-256", "not enclosed"})
+    for (const char* const part : {"1 of 2 links enclosed by 2 spheres", "b.c", "r.urdf", "s.csv", "SHA-256",
+                                   "not enclosed", "volume inside"})
       EXPECT_NE(text.find(part), std::string::npos) << page << part << text;
     EXPECT_EQ(text.find(folder.path()), std::string::npos) << "names of files, not where they are";
     EXPECT_EQ(text.find("http"), std::string::npos);
+    EXPECT_EQ(text.find("data:image/png;base64,") != std::string::npos, page == std::string("p.html"));
   }
 }
 
@@ -149,10 +158,16 @@ TEST_F(SpheresCli, what_is_wrong_is_said_before_anything_runs) {
 
 TEST_F(SpheresCli, makes_spheres_that_contain_links_and_reads_them_back) {
   const std::string out = folder.file("out");
-  const ProcessResult made =
-      ballflow({"spheres", "robot:arm", "--links", "hand,left_finger", "--balls", "12", "--effort", "low",
-                "--out", out, "--format", "urdf,srdf,curobo,xrdf,foam,mjcf,csv"});
+  const ProcessResult made = ballflow(
+      {"spheres", "robot:arm", "--links", "hand,left_finger", "--balls", "12", "--effort", "low", "--out",
+       out, "--format", "urdf,srdf,curobo,xrdf,foam,mjcf,csv", "--page", folder.file("made.html")});
   EXPECT_EQ(made.exit_code, 0) << made.err;
+  const std::string page = test::read_file(folder.file("made.html"));
+  for (const char* const part :
+       {"How many spheres do how well", "<svg", "volume outside, % of the link", ">hand<",
+        "Links and spheres", "data:image/png;base64,", "sum of spheres / link"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  EXPECT_EQ(page.find("<script"), std::string::npos);
   EXPECT_NE(made.out.find("2 links are enclosed by 12 spheres: proven; "), std::string::npos) << made.out;
   for (const char* const file :
        {"spheres.urdf", "spheres.srdf", "spheres.yml", "spheres.xrdf", "spheres.json", "spheres.csv"}) {

@@ -22,7 +22,8 @@ int main(int argc, char** argv) {
       "Its nodes compute with unions of balls: poles, discrete medial axis, set-cover pruning,\n"
       "alpha-shapes and medial axes.\n\n"
       "  ballflow run graphs/medial_axis.json --set input=scan.ply --out out/\n",
-      "Exit codes: 0 ok, 2 wrong usage or graph, 3 a node failed, 4 cancelled, 5 store or files, 6 plugin.\n"
+      "Exit codes: 0 ok, 1 the answer is no (spheres --check), 2 wrong usage or graph, 3 a node failed,\n"
+      "4 cancelled, 5 store or files, 6 plugin.\n"
       "The cache is $BALLFLOW_CACHE, else ~/.cache/ballflow; it may be deleted at any time.",
       [&](const cli::Command& program) { cli::add_commands(program, common, action); });
   if (parsed.done) return parsed.exit_code;

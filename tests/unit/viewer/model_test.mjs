@@ -78,6 +78,10 @@ test('what has joints comes first, and hides its parts at first', () => {
   assert.deepEqual(groups.map(({ title }) => title), ['robot', 'hand/mesh']);
   const settings = model.firstSettings(groups, true);
   assert.deepEqual([...settings].map(([key, { visible }]) => [key, visible]).sort(), [['hand/mesh/mesh', false], ['robot/links', true]]);
+  const points = [...groups, { title: 'open', layers: [layer('open', 'points', { key: 'open' })] }];
+  assert.equal(model.firstSettings(points, true).get('open').visible, false, 'a part, although nothing else has points');
+  points[2].given = true;
+  assert.equal(model.firstSettings(points, true).get('open').visible, true, 'given by name');
 });
 
 test('a node shows its own artifacts, under a name without the variant', () => {

@@ -11,11 +11,11 @@
 #include "ballflow/text.hpp"
 #include "commands/output_folder.hpp"
 #include "commands/run_command.hpp"
+#include "commands/spheres_findings.hpp"
+#include "commands/watched.hpp"
 #include "export/export.hpp"
 #include "io/file_content.hpp"
 #include "report/spheres_page.hpp"
-#include "show/typed.hpp"
-#include "types/enclosure_type.hpp"
 #include "urdf/sample_robot.hpp"
 #include "urdf/urdf.hpp"
 
@@ -26,13 +26,16 @@ namespace fs = std::filesystem;
 
 struct SpheresArguments {
   RunArguments run;
-  std::string file, check, page;
+  std::string file, check, page, picture;
   std::vector<std::string> links, packages, per_link, formats;
   std::string mode = "enclose", within, effort;
   bool visual = false;
   double buffer = 0;
   std::uint64_t balls = 0, minimum = 4;
 };
+
+/// The exit code where a link is not proven to be in its spheres: nothing has failed, the answer is no.
+constexpr int not_enclosed = 1;
 
 constexpr const char* usual_formats[] = {"urdf", "srdf", "curobo", "xrdf", "csv"};
 
@@ -100,34 +103,27 @@ std::string digest_of(Store& store, const std::string& file) {
   return fs::is_regular_file(file) ? store.file_digest(file).hex() : std::string();
 }
 
-/// The number of a field of a summary, 0 where there is none.
-double field(const OutputEntry& entry, const char* name) {
-  const Json summary = Json::parse(entry.summary, nullptr, false);
-  const auto found = summary.is_object() ? summary.find(name) : summary.end();
-  return summary.is_object() && found != summary.end() && found->is_number() ? found->get<double>() : 0;
-}
+bool is_markdown(const std::string& file) { return file.ends_with(".md") || file.ends_with(".markdown"); }
 
-std::vector<report::LinkCheck> checks_of(const Dag& dag, const RunResult& result,
-                                         const std::vector<std::string>& links,
-                                         const std::function<ArtifactPtr(const EdgeRef&)>& load) {
-  std::vector<report::LinkCheck> checks;
-  std::size_t measured = 0;
-  for (const DagOutput& output : dag.outputs) {
-    for (const OutputEntry& entry : result.nodes[output.from.node].outputs) {
-      if (entry.port != output.from.port) continue;
-      if (output.base_name() == "enclosure") {
-        const ArtifactPtr artifact = load(output.from);
-        report::LinkCheck& check = checks.emplace_back();
-        check.link = links.at(checks.size() - 1);
-        check.enclosure = typed<geometry::Enclosure>(*artifact);
-      }
-      if (output.base_name() == "measure" && measured < checks.size()) {
-        checks[measured].volume = field(entry, "volume");
-        checks[measured++].solid_volume = field(entry, "solid_volume");
-      }
-    }
+/// Draws, and writes the page and the picture that are wished for. Returns their files.
+std::vector<std::string> write_page(const SpheresArguments& arguments, report::SpheresCheck& page,
+                                    const Dag& dag, const LoadArtifact& load) {
+  const bool html = !arguments.page.empty() && !is_markdown(arguments.page);
+  if (html || !arguments.picture.empty()) {
+    watched("no page or picture was written", [&](geometry::Monitor& monitor) {
+      page.pictures = link_pictures(dag, page, load, html ? 2 : 1, monitor);
+    });
   }
-  return checks;
+  std::vector<std::string> written;
+  if (!arguments.page.empty()) {
+    write_atomically(arguments.page, html ? report::html_page(page) : report::markdown_page(page));
+    written.push_back(arguments.page);
+  }
+  if (!arguments.picture.empty() && !page.pictures.empty()) {
+    write_atomically(arguments.picture, page.pictures.front().png);
+    written.push_back(arguments.picture);
+  }
+  return written;
 }
 
 /// Of reading; what the copies warn about is in the table.
@@ -168,29 +164,32 @@ int check(const Common& common, SpheresArguments arguments) {
     throw_usage(error);
   }
   common.places->writes("--page", arguments.page);
+  common.places->writes("--picture", arguments.picture);
   arguments.run.table = false;
-  return run_graph(common, arguments.run, [&](const Dag& dag, const RunResult& result, const auto& load) {
-    report::SpheresCheck page;
-    page.robot = fs::path(arguments.file).filename().string();
-    page.spheres = fs::path(arguments.check).filename().string();
-    const auto store = common.store();
-    page.robot_digest = digest_of(*store, arguments.file);
-    page.spheres_digest = digest_of(*store, arguments.check);
-    page.geometry = arguments.visual ? "visual" : "collision";
-    page.buffer = arguments.buffer;
-    page.links = checks_of(dag, result, links, load);
-    page.version = BALLFLOW_VERSION;
-    if (!arguments.run.quiet && !arguments.run.json) {
-      tell_warnings(dag, result);
-      print_table(report::table(page));
-      std::printf("\n%s\n", printable(report::verdict(page)).c_str());
-    }
-    if (arguments.page.empty()) return;
-    const bool markdown = arguments.page.ends_with(".md") || arguments.page.ends_with(".markdown");
-    write_atomically(arguments.page, markdown ? report::markdown_page(page) : report::html_page(page));
-    if (!arguments.run.quiet && !arguments.run.json)
-      std::printf("wrote %s\n", printable(arguments.page).c_str());
-  });
+  bool enclosed = true;
+  const int code =
+      run_graph(common, arguments.run, [&](const Dag& dag, const RunResult& result, const auto& load) {
+        report::SpheresCheck page;
+        page.robot = fs::path(arguments.file).filename().string();
+        page.spheres = fs::path(arguments.check).filename().string();
+        const auto store = common.store();
+        page.robot_digest = digest_of(*store, arguments.file);
+        page.spheres_digest = digest_of(*store, arguments.check);
+        page.geometry = arguments.visual ? "visual" : "collision";
+        page.buffer = arguments.buffer;
+        page.links = link_checks(dag, result, links, load);
+        page.version = BALLFLOW_VERSION;
+        enclosed = report::all_enclosed(page);
+        if (!arguments.run.quiet && !arguments.run.json) {
+          tell_warnings(dag, result);
+          print_table(report::table(page));
+          std::printf("\n%s\n", printable(report::verdict(page)).c_str());
+        }
+        for (const std::string& file : write_page(arguments, page, dag, load)) {
+          if (!arguments.run.quiet && !arguments.run.json) std::printf("wrote %s\n", printable(file).c_str());
+        }
+      });
+  return code == 0 && !enclosed ? not_enclosed : code;
 }
 
 /// "5mm" in metres.
@@ -305,6 +304,7 @@ int make(const Common& common, SpheresArguments arguments) {
   SpheresArguments files = arguments;
   files.run.out = out;
   common.places->writes("--page", arguments.page);
+  common.places->writes("--picture", arguments.picture);
   if (!out.empty()) {
     for (const std::string& format : arguments.formats)
       common.places->writes("--format " + format, sphere_file(files, format));
@@ -317,8 +317,9 @@ int make(const Common& common, SpheresArguments arguments) {
     page.spheres = "ballflow spheres, mode " + arguments.mode;
     page.robot_digest = digest_of(*common.store(), arguments.file);
     page.geometry = arguments.visual ? "visual" : "collision";
+    page.mode = arguments.mode;
     page.enclosing = arguments.mode == "enclose";
-    page.links = checks_of(dag, result, links, load);
+    page.links = link_checks(dag, result, links, load);
     page.version = BALLFLOW_VERSION;
     const bool talk = !arguments.run.quiet && !arguments.run.json;
     if (talk) {
@@ -335,11 +336,8 @@ int make(const Common& common, SpheresArguments arguments) {
         written.push_back(sphere_file(files, format));
       }
     }
-    if (!arguments.page.empty()) {
-      const bool markdown = arguments.page.ends_with(".md") || arguments.page.ends_with(".markdown");
-      write_atomically(arguments.page, markdown ? report::markdown_page(page) : report::html_page(page));
-      written.push_back(arguments.page);
-    }
+    page.curves = link_curves(dag, result, links);
+    for (std::string& file : write_page(arguments, page, dag, load)) written.push_back(std::move(file));
     for (const std::string& file : written) {
       if (talk) std::printf("wrote %s\n", printable(file).c_str());
     }
@@ -363,7 +361,7 @@ void add_spheres(const Command& app, Common& common, Action& action) {
       .option(
           "--check", arguments->check,
           "spheres to check: cuRobo YAML, XRDF, foam or ballpark JSON, URDF, SRDF, CSV (link,x,y,z,radius);\n"
-          "for a mesh balls, as in \"graphs/enclosure.json\"")
+          "for a mesh balls, as in \"graphs/enclosure.json\". Exit code 1 where a link is not enclosed")
       .type_name("SPHERES");
   command.option("--balls", arguments->balls,
                  "spheres of all links together (default: 20 a link); of a mesh (default: 20)");
@@ -390,7 +388,14 @@ void add_spheres(const Command& app, Common& common, Action& action) {
               "of a mesh: csv, ply and others")
       .type_name("NAME,NAME")
       .delimiter(',');
-  command.option("--page", arguments->page, "file that receives the verdict as a page: .html or .md")
+  command
+      .option("--page", arguments->page,
+              "file that receives the verdict as a page: .html (with pictures) or .md")
+      .type_name("FILE");
+  command
+      .option(
+          "--picture", arguments->picture,
+          "file that receives a picture of the links and their spheres (.png); what these leave out is red")
       .type_name("FILE");
   command.option("--links", arguments->links, "names of the links; default: all that have a shape")
       .type_name("NAME,NAME")

@@ -14,7 +14,6 @@
 #include "report/plot.hpp"
 #include "report/result_plots.hpp"
 #include "report/style.hpp"
-#include "show/page/base64.hpp"
 
 namespace ballflow::report {
 namespace {
@@ -246,10 +245,7 @@ std::string pictures(const ReportInput& input) {
   std::string out;
   for (const Picture& picture : input.pictures) {
     const auto words = input.words.find(picture.title);
-    out += "<figure class=\"picture\"><figcaption><strong>" + escaped(picture.title) + "</strong>" +
-           (words == input.words.end() ? "" : ": " + escaped(words->second)) + "</figcaption><img alt=\"" +
-           escaped(picture.title) + "\" src=\"data:image/png;base64," + show::base64(picture.png) +
-           "\"></figure>\n";
+    out += figure(picture, words == input.words.end() ? "" : words->second);
   }
   if (input.pictures_left_out > 0) {
     out += "<p>Not drawn, because they are many or no longer in the cache: " +

@@ -8,13 +8,9 @@
 
 #include "ballflow/history.hpp"
 #include "ballflow/registry.hpp"
+#include "report/picture.hpp"
 
 namespace ballflow::report {
-
-struct Picture {
-  std::string title;
-  std::string png;  // the bytes of the file
-};
 
 struct ReportInput {
   RunRecord run;

@@ -1,10 +1,11 @@
 #include "report/spheres_page.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <set>
 
 #include "report/html.hpp"
+#include "report/spheres_measures.hpp"
+#include "report/spheres_words.hpp"
 #include "report/style.hpp"
 
 namespace ballflow::report {
@@ -12,29 +13,15 @@ namespace {
 
 using geometry::Enclosure;
 
-std::string text(const char* format, double value) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, format, value);
-  return buffer;
-}
-
-std::string percent(double share) {
-  if (share == 0) return "0";
-  return share < 0.0005 ? "under 0.05 %" : text(share < 0.0995 ? "%.2g %%" : "%.3g %%", 100 * share);
-}
-std::string length(double metres) { return metres == 0 ? "0" : text("%.3g mm", 1000 * metres); }
-
-double open_share(const Enclosure& e) { return e.area > 0 ? e.open_area / e.area : 0; }
-
 /// How much of the balls is outside of the link, by volumes; only where all of the link is inside.
 std::string outside(const LinkCheck& link) {
-  // A surface whose parts overlap, or are there twice, has more volume than it fills.
   if (link.solid_volume <= 0 || link.volume < link.solid_volume || !link.enclosure.encloses()) return "-";
   return percent(link.volume / link.solid_volume - 1);
 }
 
 std::string place(geometry::Vec3 p) {
-  return "(" + text("%.5g", p.x) + ", " + text("%.5g", p.y) + ", " + text("%.5g", p.z) + ")";
+  return "(" + with_format("%.5g", p.x) + ", " + with_format("%.5g", p.y) + ", " + with_format("%.5g", p.z) +
+         ")";
 }
 
 struct Totals {
@@ -84,9 +71,13 @@ const std::vector<std::string>& explanations() {
       "more.",
       "Protrusion: no point of the spheres is farther than that from the link (a bound). Volume outside: how "
       "much the "
-      "spheres have beyond the volume of the link, where it is enclosed and its surface is closed; parts of "
-      "a link "
-      "that overlap count twice in its volume.",
+      "spheres have beyond the volume of the link, where it is enclosed and its surface is closed; where "
+      "parts "
+      "of a link overlap, that counts once.",
+      "Surface and volume inside: how much of surface and volume of the link is in its spheres, which others "
+      "call coverage; all of it only where that is proven. Sum of spheres: their volumes, added up where "
+      "they "
+      "overlap, over the volume of the link.",
   };
   return lines;
 }
@@ -138,6 +129,32 @@ std::string cell(std::string value) {
   return value;
 }
 
+using TextRows = std::vector<std::vector<std::string>>;
+
+std::string markdown_table(const TextRows& rows, const char* alignment) {
+  std::string table;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    table += "|";
+    for (const std::string& value : rows[i]) table += " " + cell(value) + " |";
+    table += "\n";
+    if (i == 0) table += alignment;
+  }
+  return table;
+}
+
+std::string html_table(const TextRows& rows) {
+  std::string table = "<div class=\"wide\"><table>\n";
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::string tag = i == 0 ? "th" : "td";
+    table += "<tr>";
+    for (const std::string& value : rows[i]) table += "<" + tag + ">" + escaped(value) + "</" + tag + ">";
+    table += "</tr>\n";
+  }
+  return table + "</table></div>\n";
+}
+
+constexpr const char* measures_title = "The same in the numbers of other programs";
+
 }  // namespace
 
 std::string verdict(const SpheresCheck& check) {
@@ -168,23 +185,23 @@ std::vector<std::vector<std::string>> table(const SpheresCheck& check) {
       {"link", "spheres", "verdict", "surface outside", "farthest", "protrusion", "volume outside"}};
   for (const LinkCheck& link : check.links) {
     rows.push_back({link.link, std::to_string(link.enclosure.balls), verdict_of(link, check.enclosing),
-                    percent(open_share(link.enclosure)), length(link.enclosure.gap),
-                    length(link.enclosure.protrusion), outside(link)});
+                    percent(open_share(link)), length(link.enclosure.gap), length(link.enclosure.protrusion),
+                    outside(link)});
   }
   return rows;
+}
+
+bool all_enclosed(const SpheresCheck& check) {
+  return std::all_of(check.links.begin(), check.links.end(),
+                     [](const LinkCheck& link) { return link.enclosure.encloses(); });
 }
 
 std::string markdown_page(const SpheresCheck& check) {
   std::string page = "# " + title(check) + "\n\n" + verdict(check) + ".\n\n";
   for (const std::string& line : sources(check)) page += "- " + line + "\n";
-  page += "\n";
-  const auto rows = table(check);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    page += "|";
-    for (const std::string& value : rows[i]) page += " " + cell(value) + " |";
-    page += "\n";
-    if (i == 0) page += "|---|--:|---|--:|--:|--:|--:|\n";
-  }
+  page += "\n" + markdown_table(table(check), "|---|--:|---|--:|--:|--:|--:|\n");
+  page += std::string("\n## ") + measures_title + "\n\n" +
+          markdown_table(measures(check), "|---|--:|--:|--:|--:|--:|\n");
   bool heading = false;
   for (const LinkCheck& link : check.links) {
     const std::vector<std::string> open = places(link, most_places);
@@ -208,15 +225,9 @@ std::string html_page(const SpheresCheck& check) {
       "</style></head><body>\n<h1>" + escaped(title(check)) + "</h1>\n<p>" + escaped(verdict(check)) +
       ".</p>\n<ul>";
   for (const std::string& line : sources(check)) page += "<li>" + escaped(line) + "</li>\n";
-  page += "</ul>\n<table>\n";
-  const auto rows = table(check);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const std::string tag = i == 0 ? "th" : "td";
-    page += "<tr>";
-    for (const std::string& value : rows[i]) page += "<" + tag + ">" + escaped(value) + "</" + tag + ">";
-    page += "</tr>\n";
-  }
-  page += "</table>\n";
+  page += "</ul>\n" + html_table(table(check));
+  for (const Picture& picture : check.pictures) page += figure(picture);
+  page += std::string("<h2>") + measures_title + "</h2>\n" + html_table(measures(check)) + curves(check);
   bool heading = false;
   for (const LinkCheck& link : check.links) {
     const std::vector<std::string> open = places(link, most_places);

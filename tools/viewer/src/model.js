@@ -81,7 +81,7 @@ const shapeOrder = ['points', 'segments', 'balls', 'triangles'];
 export function groupsOf(scene, variant, nodePath, withOutputs = false) {
   const groups = [];
   const taken = new Set();
-  const add = (title, digest) => {
+  const add = (title, digest, given = false) => {
     const artifact = scene.artifacts[digest];
     if (!artifact || taken.has(title)) return;
     taken.add(title);
@@ -92,7 +92,7 @@ export function groupsOf(scene, variant, nodePath, withOutputs = false) {
       key: `${title}/${layer.name}`,
       drawing: `${digest}/${layer.name}`,
     }));
-    groups.push({ title, digest, artifact, layers });
+    groups.push({ title, digest, artifact, layers, given });
   };
   const nodes = nodesOf(scene, variant); // none of artifacts alone
   const chosen = nodes.find(({ path }) => path === nodePath);
@@ -104,7 +104,7 @@ export function groupsOf(scene, variant, nodePath, withOutputs = false) {
     const rank = ({ from }) => depth.get(from.slice(0, from.lastIndexOf('.'))) ?? 0;
     const outputs = [...(variant?.outputs ?? [])].sort((a, b) => rank(a) - rank(b));
     for (const { name, digest } of outputs) add(name, digest);
-    for (const { name, digest } of scene.loose) add(name, digest);
+    for (const { name, digest } of scene.loose) add(name, digest, true);
     if (!chosen) groups.sort((a, b) => Number(hasJoints(b)) - Number(hasJoints(a))); // the whole before its parts
   }
   return groups;
@@ -114,20 +114,21 @@ const hasJoints = ({ layers }) => layers.some(({ chain }) => chain !== undefined
 
 /**
  * Which layers are visible at first, and how opaque. Of the outputs of a graph several would hide one another: of
- * those with layers of one shape only the last one is visible, and balls let through what they enclose. Something
- * with joints is seen before its parts, which would lie on each other in frames of their own. What a node made, or
- * was given by name, is shown as its type says.
+ * those with layers of one shape only the last one is visible, and balls let through what they enclose. Beside
+ * something with joints other outputs are hidden: its parts would lie on each other in frames of their own. What a
+ * node made, or was given by name, is shown as its type says.
  */
 export function firstSettings(groups, areOutputs) {
   const settings = new Map();
-  const visible = groups.flatMap(({ layers }) => layers.filter((layer) => layer.visible));
+  const jointed = groups.some(hasJoints);
+  const isPart = (group) => areOutputs && jointed && !hasJoints(group) && !group.given;
+  const visible = groups.filter((group) => !isPart(group)).flatMap(({ layers }) => layers.filter((layer) => layer.visible));
   const encloses = visible.some(({ shape }) => shape === 'segments' || shape === 'triangles');
   const seen = new Set();
-  const inOrder = [...groups].reverse().sort((a, b) => Number(hasJoints(b)) - Number(hasJoints(a)));
-  for (const { layers } of inOrder) {
+  for (const group of [...groups].reverse()) {
     const shapes = new Set();
-    for (const layer of layers) {
-      const first = !areOutputs || !seen.has(layer.shape);
+    for (const layer of group.layers) {
+      const first = !areOutputs || (!isPart(group) && !seen.has(layer.shape));
       const opacity = areOutputs && layer.shape === 'balls' && encloses ? Math.min(layer.opacity, 0.25) : layer.opacity;
       settings.set(layer.key, {
         visible: layer.visible && first,
@@ -135,7 +136,7 @@ export function firstSettings(groups, areOutputs) {
         colourBy: layer.colour_by,
         style: 'solid',
       });
-      if (layer.visible) shapes.add(layer.shape);
+      if (layer.visible && !isPart(group)) shapes.add(layer.shape);
     }
     for (const shape of shapes) seen.add(shape);
   }
