@@ -9,7 +9,7 @@
 
 #include "base/index.hpp"
 #include "exact/ball_predicates.hpp"
-#include "minkowski/contribution.hpp"
+#include "power/contribution.hpp"
 #include "power/regular_triangulation_2.hpp"
 
 namespace ballflow::geometry {
@@ -66,35 +66,6 @@ std::vector<Ball> in_plane_order(const std::vector<Ball>& balls, Monitor& monito
   }
   return ordered;
 }
-
-/// The neighbours of every vertex, each once, and whether it has one at infinity.
-class Links {
- public:
-  Links(std::span<const RegularTriangulation2::Triangle> triangles, std::size_t vertices)
-      : begins_(vertices + 1) {
-    // Around a vertex every neighbour is the next corner of one triangle.
-    for (const auto& t : triangles) {
-      for (const std::int32_t v : t.vertices) {
-        if (v >= 0) ++begins_[at(v) + 1];
-      }
-    }
-    for (std::size_t i = 1; i < begins_.size(); ++i) begins_[i] += begins_[i - 1];
-    neighbours_.resize(begins_.back());
-    std::vector<std::size_t> next(begins_.begin(), begins_.end() - 1);
-    for (const auto& t : triangles) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        if (t.vertices[i] >= 0) neighbours_[next[at(t.vertices[i])]++] = t.vertices[(i + 1) % 3];
-      }
-    }
-  }
-  std::span<const std::int32_t> of(std::size_t vertex) const {
-    return {neighbours_.data() + begins_[vertex], begins_[vertex + 1] - begins_[vertex]};
-  }
-
- private:
-  std::vector<std::size_t> begins_;
-  std::vector<std::int32_t> neighbours_;
-};
 
 }  // namespace
 
@@ -154,7 +125,7 @@ Contributing PlaneSums::contributing(Monitor& monitor) {
   Implementation& my = *implementation_;
   const std::vector<RegularTriangulation2::Triangle> triangles = my.triangulation.take_triangles();
   const std::size_t n = my.triangulation.size();
-  const Links links(triangles, n);
+  const PlaneLinks links(triangles, n);
   std::vector<std::uint8_t> contributes(n);
   Contributing result;
   for (std::size_t i = 0; i < n; ++i) {

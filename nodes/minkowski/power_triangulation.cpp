@@ -14,7 +14,7 @@
 
 #include "base/index.hpp"
 #include "base/space_order.hpp"
-#include "minkowski/contribution.hpp"
+#include "power/contribution.hpp"
 
 namespace ballflow::geometry {
 namespace {

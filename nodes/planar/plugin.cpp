@@ -4,11 +4,13 @@
 namespace ballflow::nodes {
 const bf_node* read_polygon_entry();
 const bf_node* disc_poles_entry();
+const bf_node* disc_union_outline_entry();
 }  // namespace ballflow::nodes
 
 BALLFLOW_PLUGIN("planar", "0.1.0",
                 (std::vector<const bf_node*>{
                     ballflow::nodes::read_polygon_entry(),
                     ballflow::nodes::disc_poles_entry(),
+                    ballflow::nodes::disc_union_outline_entry(),
                 }),
                 ballflow::type_entries<>())

@@ -206,4 +206,23 @@ std::vector<RegularTriangulation2::Triangle> RegularTriangulation2::take_triangl
   return result;
 }
 
+PlaneLinks::PlaneLinks(std::span<const RegularTriangulation2::Triangle> triangles, std::size_t vertices)
+    : begins_(vertices + 1) {
+  // Around a vertex every neighbour is the next corner of one triangle.
+  const auto at = [](std::int32_t i) { return static_cast<std::size_t>(i); };
+  for (const auto& t : triangles) {
+    for (const std::int32_t v : t.vertices) {
+      if (v >= 0) ++begins_[at(v) + 1];
+    }
+  }
+  for (std::size_t i = 1; i < begins_.size(); ++i) begins_[i] += begins_[i - 1];
+  neighbours_.resize(begins_.back());
+  std::vector<std::size_t> next(begins_.begin(), begins_.end() - 1);
+  for (const auto& t : triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (t.vertices[i] >= 0) neighbours_[next[at(t.vertices[i])]++] = t.vertices[(i + 1) % 3];
+    }
+  }
+}
+
 }  // namespace ballflow::geometry

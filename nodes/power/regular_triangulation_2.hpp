@@ -80,4 +80,18 @@ class RegularTriangulation2 {
   bool ordinary_ = true;  // no coordinate beyond 1e60, no weight beyond 1e120: double arithmetic is tried
 };
 
+/// The neighbours of every vertex, each once, in no particular order; `infinite` among those of vertices of
+/// the convex hull.
+class PlaneLinks {
+ public:
+  PlaneLinks(std::span<const RegularTriangulation2::Triangle> triangles, std::size_t vertices);
+  std::span<const std::int32_t> of(std::size_t vertex) const {
+    return {neighbours_.data() + begins_[vertex], begins_[vertex + 1] - begins_[vertex]};
+  }
+
+ private:
+  std::vector<std::size_t> begins_;
+  std::vector<std::int32_t> neighbours_;
+};
+
 }  // namespace ballflow::geometry

@@ -104,6 +104,14 @@ class Artifact:
         self.edges = [(first + i, first + (i + 1) % (end - first))
                       for first, end in zip(ends, ends[1:]) for i in range(end - first)]
 
+    def read_DiscOutline(self, a):
+        ends, parts = a["ring_offsets"], a["component_offsets"]
+        arcs = [(*a["centers"][disc], a["radii"][disc], *begin, angle)
+                for disc, begin, angle in zip(a["arc_discs"], a["arc_begins"], a["arc_angles"])]
+        rings = [arcs[ends[i]:ends[i + 1]] for i in range(len(ends) - 1)]
+        self.arcs = [(r, *arc) for r, ring in enumerate(rings) for arc in ring]
+        self.components = [rings[parts[k]:parts[k + 1]] for k in range(len(parts) - 1)]
+
     def read_PoleSet(self, a):
         self.points, self.radii = a["centers"], a["radii"]
         self.point_codes = ("label", a["labels"])
@@ -337,6 +345,9 @@ def check_csv(data, artifact):
             numbers = tuple(float(row[name]) for name in ("x", "y", "z", "radius"))
             found.setdefault(row["link"], []).append(numbers)
         return same(found, artifact.with_spheres, "spheres")
+    if artifact.type == "DiscOutline":
+        same(lines[0], "ring,x,y,r,begin_x,begin_y,angle", "names")
+        return same([tuple(map(float, line.split(","))) for line in lines[1:]], artifact.arcs, "arcs")
     if artifact.type == "TopologyTable":
         return check_topology_csv(lines, artifact.arrays)
     if artifact.type == "CoverState":
@@ -464,6 +475,31 @@ def check_poly2d(data, artifact):
     same(at, len(lines), "lines")
 
 
+def check_arcs(paths, artifact):
+    """Every arc of the outline is some arcs of the path, over the same circle, with ends to the last bit."""
+    same(len(paths), len(artifact.components), "paths")
+    for path, rings in zip(paths, artifact.components):
+        texts = path[1:-1].split("ZM")
+        same(len(texts), len(rings), "rings")
+        for text, ring in zip(texts, rings):
+            begin, *pieces = text.split("A")
+            here = floats(begin)
+            pieces = [floats(piece) for piece in pieces]
+            for i, (x, y, r, bx, by, angle) in enumerate(ring):
+                same(here, (bx, by), "begin of an arc")
+                end = ring[(i + 1) % len(ring)][3:5]
+                gone = 0
+                while True:
+                    rx, ry, _, large, sweep, *there = pieces.pop(0)
+                    same((rx, ry, large, sweep), (r, r, 0, 1), "an arc")
+                    require(abs(math.hypot(there[0] - x, there[1] - y) - r) < 1e-9 * (r + abs(x) + abs(y)), "circle")
+                    gone += 2 * math.asin(min(1, math.hypot(there[0] - here[0], there[1] - here[1]) / (2 * r)))
+                    here = tuple(there)
+                    if here == end and abs(gone - angle) < 1e-6:
+                        break
+            same(pieces, [], "pieces after the last arc")
+
+
 def check_svg(data, artifact):
     root = ElementTree.fromstring(data)
     group, = root
@@ -473,6 +509,8 @@ def check_svg(data, artifact):
     if artifact.type == "Balls":
         found = [(float(c.get("cx")), float(c.get("cy")), float(c.get("r"))) for c in group]
         return same(found, [(x, y, r) for x, y, _, r in artifact.balls()], "circles")
+    if artifact.type == "DiscOutline":
+        return check_arcs([path.get("d") for path in group], artifact)
     found = [[[floats(point) for point in ring.split("L")] for ring in path.get("d")[1:-1].split("ZM")]
              for path in group]
     same(found, artifact.components, "paths")

@@ -15,7 +15,8 @@ const std::vector<TypeFormats>& table() {
       pole_set_formats(),       local_feature_size_formats(), growth_formats(),
       cover_state_formats(),    simplicial_complex_formats(), medial_axis_formats(),
       topology_table_formats(), sample_assignment_formats(),  surface_report_formats(),
-      robot_formats(),          robot_spheres_formats(),      polygon2_formats()};
+      robot_formats(),          robot_spheres_formats(),      polygon2_formats(),
+      disc_outline_formats()};
   return types;
 }
 

@@ -15,6 +15,7 @@
 //                                                    3 contradicted by poles; ply also with colours
 //   RobotSpheres       urdf srdf curobo xrdf foam mjcf csv   yml is curobo, xml is mjcf
 //   Polygon2           svg geojson wkt poly2d ply obj vtp glb
+//   DiscOutline        svg csv                     arcs as they are
 //   every type         json safetensors              summary and shapes; the artifact, byte for byte
 // clang-format on
 //

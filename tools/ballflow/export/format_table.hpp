@@ -46,6 +46,7 @@ TypeFormats surface_report_formats();
 TypeFormats robot_formats();
 TypeFormats robot_spheres_formats();
 TypeFormats polygon2_formats();
+TypeFormats disc_outline_formats();
 
 /// What every type can be written as.
 std::vector<Format> generic_formats();

@@ -5,6 +5,7 @@
 #include "ballflow/artifact.hpp"
 #include "ballflow/output_file.hpp"
 #include "export/poly_data.hpp"
+#include "types/disc_outline.hpp"
 #include "types/polygon2.hpp"
 
 namespace ballflow {
@@ -53,6 +54,10 @@ void write_svg(const PolyData& data, OutputFile& out);
 /// Polygons as ReadPolygon reads them: SVG (a path for each component, y upwards by a transform), GeoJSON and
 /// WKT (MULTIPOLYGON, the first point of a ring repeated at its end), and the numbers of rings and points.
 void write_svg(const geometry::Polygon2& polygon, OutputFile& out);
+/// Outlines with their arcs: as elliptical arcs of paths, each at most half a turn; and as a line per arc,
+/// which ring, disc, where it begins, how far it goes.
+void write_svg(const geometry::DiscOutline& outline, OutputFile& out);
+void write_csv(const geometry::DiscOutline& outline, OutputFile& out);
 void write_geojson(const geometry::Polygon2& polygon, OutputFile& out);
 void write_wkt(const geometry::Polygon2& polygon, OutputFile& out);
 void write_poly2d(const geometry::Polygon2& polygon, OutputFile& out);

@@ -29,5 +29,6 @@ TypeLayers robot_spheres_layers();
 TypeLayers sample_assignment_layers();
 TypeLayers surface_report_layers();
 TypeLayers polygon2_layers();
+TypeLayers disc_outline_layers();
 
 }  // namespace ballflow::show

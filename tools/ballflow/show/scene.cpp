@@ -24,7 +24,8 @@ const std::vector<TypeLayers>& table() {
                                                 enclosure_layers(),
                                                 robot_layers(),
                                                 robot_spheres_layers(),
-                                                polygon2_layers()};
+                                                polygon2_layers(),
+                                                disc_outline_layers()};
   return types;
 }
 

@@ -226,6 +226,12 @@ std::string describe(const OutputEntry& output) {
          if (s.at("holes") != 0) text += " with " + counted(s, "holes", "hole");
          return text + ", " + number(s, "vertices") + " vertices, area " + rounded(s, "area");
        }},
+      {"DiscOutline",
+       [](const Json& s) {
+         std::string text = counted(s, "arcs", "arc") + ", " + counted(s, "components", "component");
+         if (s.at("holes") != 0) text += ", " + counted(s, "holes", "hole");
+         return text + ", area " + rounded(s, "area");
+       }},
       {"MeshReport", mesh_report},
       {"Robot", robot},
       {"RobotSpheres", robot_spheres},

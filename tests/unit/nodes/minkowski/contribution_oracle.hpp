@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "minkowski/contribution.hpp"
+#include "power/contribution.hpp"
 
 namespace ballflow::geometry::test {
 

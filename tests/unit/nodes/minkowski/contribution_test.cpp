@@ -1,4 +1,4 @@
-#include "minkowski/contribution.hpp"
+#include "power/contribution.hpp"
 
 #include <gtest/gtest.h>
 

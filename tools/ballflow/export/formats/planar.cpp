@@ -1,12 +1,15 @@
 // Shapes in the plane as other programs draw and map them: svg, geojson, wkt, poly2d.
 #include <algorithm>
 
+#include "base/arctangent.hpp"
+#include "base/circle.hpp"
 #include "export/formats.hpp"
 #include "export/formats/text.hpp"
 
 namespace ballflow {
 namespace {
 
+using geometry::DiscOutline;
 using geometry::Polygon2;
 using geometry::Vec2;
 
@@ -64,6 +67,54 @@ void write_svg(const PolyData& data, OutputFile& out) {
         << (*data.radii)[i] << "\"/>\n";
   }
   out << "</g>\n</svg>\n";
+}
+
+void write_svg(const DiscOutline& outline, OutputFile& out) {
+  begin_svg(bounding_box(outline), out);
+  out << "<g transform=\"scale(1 -1)\" fill=\"#7a9cc6\" fill-rule=\"evenodd\">\n";
+  for (std::size_t k = 0; k < outline.components(); ++k) {
+    out << "<path d=\"";
+    for (std::int64_t r = outline.component_offsets[k]; r < outline.component_offsets[k + 1]; ++r) {
+      const std::int64_t first = outline.ring_offsets[static_cast<std::size_t>(r)],
+                         last = outline.ring_offsets[static_cast<std::size_t>(r) + 1];
+      for (std::int64_t i = first; i < last; ++i) {
+        const auto arc = static_cast<std::size_t>(i);
+        const auto disc = static_cast<std::size_t>(outline.arc_discs[arc]);
+        const Vec2 center = outline.centers[disc], begin = outline.arc_begins[arc],
+                   end = outline.arc_begins[static_cast<std::size_t>(i + 1 < last ? i + 1 : first)];
+        const double radius = outline.radii[disc];
+        const auto to = [&](Vec2 p) {
+          out << 'A' << radius << ' ' << radius << " 0 0 1 " << p.x << ' ' << p.y;
+        };
+        if (i == first) out << 'M' << begin.x << ' ' << begin.y;
+        // A path cannot go all around at once: more than a quarter becomes pieces over the same circle.
+        const int pieces = 1 + static_cast<int>(outline.arc_angles[arc] / 1.6);
+        const double from = geometry::arctangent(begin.y - center.y, begin.x - center.x);
+        for (int piece = 1; piece < pieces; ++piece) {
+          const auto [c, s] = geometry::on_circle(
+              (from + outline.arc_angles[arc] * (static_cast<double>(piece) / pieces)) / (2 * geometry::pi));
+          to(center + radius * Vec2{c, s});
+        }
+        to(end);
+      }
+      out << 'Z';
+    }
+    out << "\"/>\n";
+  }
+  out << "</g>\n</svg>\n";
+}
+
+void write_csv(const DiscOutline& outline, OutputFile& out) {
+  out << "ring,x,y,r,begin_x,begin_y,angle\n";
+  for (std::size_t r = 0; r < outline.rings(); ++r) {
+    for (std::int64_t i = outline.ring_offsets[r]; i < outline.ring_offsets[r + 1]; ++i) {
+      const auto arc = static_cast<std::size_t>(i);
+      const auto disc = static_cast<std::size_t>(outline.arc_discs[arc]);
+      out << r << ',' << outline.centers[disc].x << ',' << outline.centers[disc].y << ','
+          << outline.radii[disc] << ',' << outline.arc_begins[arc].x << ',' << outline.arc_begins[arc].y
+          << ',' << outline.arc_angles[arc] << '\n';
+    }
+  }
 }
 
 void write_geojson(const Polygon2& polygon, OutputFile& out) {
