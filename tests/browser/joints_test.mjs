@@ -102,6 +102,7 @@ test('mesh and spheres are shown together, the spheres translucent, parts in fra
   assert.deepEqual(layers.filter(({ visible, shape }) => visible && shape !== 'points').map(({ key }) => key).sort(), ['robot/links', 'spheres/spheres']);
   assert.ok(layers.find(({ key }) => key === 'spheres/spheres').opacity < 0.5);
   assert.equal(layers.find(({ key }) => key === 'robot/links').opacity, 1);
+  assert.equal(await page.evaluate('document.querySelectorAll("[data-category=forearm]").length'), 1, 'one list of colours for both');
 });
 
 test('points that the spheres leave out are red, and belong to no sphere', async () => {

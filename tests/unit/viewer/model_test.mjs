@@ -121,3 +121,13 @@ test('translucent triangles are blended over balls', () => {
   const order = model.drawingOrder([layer('m', 'triangles'), layer('b', 'balls'), layer('p', 'points')]);
   assert.deepEqual(order.map(({ name }) => name), ['p', 'b', 'm']);
 });
+
+test('colours that mean the same are explained once', () => {
+  const links = { attribute: 'link', categories: ['a', 'b'] };
+  assert.ok(model.sameScale(links, { name: 'link', categories: ['a', 'b'] }));
+  assert.ok(!model.sameScale(links, { name: 'link', categories: ['a', 'c'] }));
+  assert.ok(!model.sameScale(links, { name: 'kind', categories: ['a', 'b'] }));
+  assert.ok(!model.sameScale(links, { name: 'link' }));
+  assert.ok(model.sameScale({ attribute: 'radius', range: { min: 0, max: 1 } }, { name: 'radius' }));
+  assert.ok(!model.sameScale({ attribute: 'radius', range: { min: 0, max: 1 } }, { name: 'radius', categories: ['a'] }));
+});

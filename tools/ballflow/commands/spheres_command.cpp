@@ -383,8 +383,8 @@ void add_spheres(const Command& app, Common& common, Action& action) {
       .one_of({"low", "normal", "high"});
   command
       .option("--format", arguments->formats,
-              "files of spheres in --out: urdf, srdf, curobo, xrdf, foam, mjcf, csv (default: all but foam "
-              "and mjcf);\n"
+              "files of spheres in --out: urdf, srdf, curobo, xrdf, foam, mjcf, csv, glb (default: all but\n"
+              "foam, mjcf and glb);\n"
               "of a mesh: csv, ply and others")
       .type_name("NAME,NAME")
       .delimiter(',');

@@ -117,9 +117,10 @@ function showLegend() {
   for (const layer of visibleLayers()) {
     const { attribute, colour, range } = coloured(layer);
     const line = { title: layer.title, count: layer.count, shape: layer.shape, key: layer.key };
-    const shared = attribute && !attribute.categories && entries.find((entry) => entry.range && entry.attribute === attribute.name);
+    const shared = attribute && entries.find((entry) => model.sameScale(entry, attribute));
     if (shared) {
       shared.layers.push(line);
+      shared.counts = shared.counts?.map((count, i) => count + attribute.counts[i]);
       continue;
     }
     entries.push({ layers: [line], attribute: attribute?.name, unit: attribute?.unit, range, categories: attribute?.categories, counts: attribute?.counts, colour });
@@ -257,10 +258,7 @@ function applyClip() {
   stage.request();
 }
 
-function jointsMoved() {
-  remember();
-  return showPicture();
-}
+const jointsMoved = () => { remember(); return showPicture(); };
 
 function chooseVariant(axis, value) {
   state.variant = model.chooseVariant(variants, state.variant, axis, value);

@@ -178,6 +178,11 @@ export function rangeOf(name, layers) {
   return range;
 }
 
+/** Whether an entry of a legend, { attribute: name, range, categories }, explains the colours of an attribute too. */
+export function sameScale(entry, { name, categories }) {
+  return entry.attribute === name && (categories ? same(entry.categories, categories) : Boolean(entry.range));
+}
+
 /** Bounding box of layers in model units, or null. */
 export function boxOf(layers) {
   if (layers.length === 0) return null;

@@ -86,7 +86,7 @@ export function jointsPanel({ chains, change, reset }) {
   if (chains.length === 0) return null;
   return section('Joints', ...chains.flatMap(({ number, name, joints, values }) => [
     chains.length > 1 && element('h3', { text: name }),
-    ...joints.map((joint, i) => {
+    element('div', { class: 'joints' }, ...joints.map((joint, i) => {
       const shown = element('output', { text: `${rounded(values[i], 3)}\u2009${joint.unit}` });
       const slider = element('input', {
         type: 'range', min: joint.lower, max: joint.upper, step: 'any', 'data-joint': joint.name, 'data-chain': number,
@@ -98,7 +98,7 @@ export function jointsPanel({ chains, change, reset }) {
       slider.value = values[i];
       const range = `${rounded(joint.lower)} to ${rounded(joint.upper)} ${joint.unit}`;
       return element('label', { class: 'axis', title: range }, element('span', { text: joint.name }), slider, shown);
-    }),
+    })),
     element('button', { text: 'Reset', title: 'joints as they were at first', 'data-reset': number, onclick: () => reset(number) }),
   ]));
 }
