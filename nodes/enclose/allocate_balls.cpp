@@ -9,23 +9,24 @@
 namespace ballflow::geometry {
 namespace {
 
-/// Volume outside against the number of balls: the largest convex function of 1 / sqrt(k) below the fits, so
-/// that a fit without luck does not end the gains of an object.
+/// Volume outside against the number of balls that are used.
 class Curve {
  public:
   void add(const EnclosureFit& fit) {
-    Point point{1 / std::sqrt(static_cast<double>(fit.wanted)), fit.loss};
-    if (!points_.empty())
+    Point point{1 / std::sqrt(static_cast<double>(std::max<std::int64_t>(fit.balls, 1))), fit.loss};
+    used_up_ = fit.balls >= fit.wanted;
+    if (!points_.empty()) {
       point.loss = std::min(point.loss, points_.back().loss);  // never more for more balls
-    while (points_.size() > 1 && !below(points_[points_.size() - 2], points_.back(), point))
-      points_.pop_back();
+      point.place = std::min(point.place, points_.back().place);
+      if (point.place == points_.back().place) points_.pop_back();
+    }
     points_.push_back(point);
   }
 
   double at(std::int64_t balls) const {
     const double place = 1 / std::sqrt(static_cast<double>(balls));
     const Point &few = points_.front(), &many = points_.back();
-    if (place <= many.place) return many.loss * place / many.place;
+    if (place <= many.place) return used_up_ ? many.loss * place / many.place : many.loss;
     if (place >= few.place) return few.loss * place / few.place;
     std::size_t i = 1;
     while (place < points_[i].place) ++i;
@@ -35,14 +36,38 @@ class Curve {
 
  private:
   struct Point {
-    double place, loss;
+    double place, loss;  // 1 / sqrt(k)
   };
-  /// Whether b lies below the line from a to c.
-  static bool below(const Point& a, const Point& b, const Point& c) {
-    return (b.loss - c.loss) * (a.place - c.place) < (a.loss - c.loss) * (b.place - c.place);
-  }
   std::vector<Point> points_;  // more and more balls
+  bool used_up_ = true;        // whether the last fit used all balls it might
 };
+
+/// How many of `blocks` blocks each object gets, so that the sum of losses is least (and of such ways one
+/// with few blocks): by dynamic programming, since losses need not be convex, and greedy ways stop where a
+/// next ball gains nothing but ten more would. losses[i][j] is that of object i with j blocks.
+std::vector<std::size_t> best_shares(const std::vector<std::vector<double>>& losses, std::size_t blocks) {
+  std::vector<double> least(blocks + 1, 0), next(blocks + 1);  // of the objects so far, with at most s blocks
+  std::vector<std::vector<std::uint16_t>> taken;
+  for (const std::vector<double>& loss : losses) {
+    std::vector<std::uint16_t>& choice = taken.emplace_back(blocks + 1);
+    for (std::size_t s = 0; s <= blocks; ++s) {
+      std::size_t best = 0;
+      double sum = least[s] + loss[0];
+      for (std::size_t j = 1; j <= s; ++j) {
+        if (!(least[s - j] + loss[j] < sum)) continue;
+        sum = least[s - j] + loss[j];
+        best = j;
+      }
+      next[s] = sum;
+      choice[s] = static_cast<std::uint16_t>(best);
+    }
+    least.swap(next);
+  }
+  std::vector<std::size_t> shares(losses.size());
+  std::size_t left = blocks;
+  for (std::size_t i = losses.size(); i-- > 0; left -= shares[i]) shares[i] = taken[i][left];
+  return shares;
+}
 
 void check_length(std::size_t length, std::size_t objects, const std::string& what) {
   if (length == 0 || length == objects) return;
@@ -77,19 +102,22 @@ BallCounts allocate_balls(std::span<const EnclosureFit> fits, const AllocateBall
                          " balls, but all objects together get " + std::to_string(options.balls),
                      "raise balls, or lower the minimum");
   }
-  const auto gain = [&](std::size_t i) {
+  // More than so many balls go out in blocks, or the time would grow with their square.
+  constexpr std::int64_t most_blocks = 4096;
+  const std::int64_t block = std::max<std::int64_t>(1, (left + most_blocks - 1) / most_blocks);
+  std::vector<std::size_t> objects;
+  std::vector<std::vector<double>> losses;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    if (!free[i]) continue;
+    objects.push_back(i);
     const double weight = options.weights.empty() ? 1 : options.weights[i];
-    return weight * (curves[i].at(counts[i]) - curves[i].at(counts[i] + 1));
-  };
-  std::vector<double> gains(curves.size());
-  for (std::size_t i = 0; i < curves.size(); ++i) gains[i] = free[i] ? gain(i) : -1;
-  for (; left > 0; --left) {
-    const auto best = std::max_element(gains.begin(), gains.end());
-    if (best == gains.end() || *best < 0) break;  // all counts are fixed
-    const auto i = static_cast<std::size_t>(best - gains.begin());
-    ++counts[i];
-    gains[i] = gain(i);
+    std::vector<double>& loss = losses.emplace_back();
+    for (std::int64_t j = 0; j <= left / block; ++j)
+      loss.push_back(weight * curves[i].at(counts[i] + j * block));
   }
+  const std::vector<std::size_t> shares = best_shares(losses, static_cast<std::size_t>(left / block));
+  for (std::size_t n = 0; n < objects.size(); ++n)
+    counts[objects[n]] += static_cast<std::int32_t>(static_cast<std::int64_t>(shares[n]) * block);
   std::vector<double> outside;
   for (std::size_t i = 0; i < curves.size(); ++i) outside.push_back(std::max(0.0, curves[i].at(counts[i])));
   return {std::move(counts), std::move(outside)};

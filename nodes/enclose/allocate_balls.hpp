@@ -20,10 +20,11 @@ struct AllocateBallsOptions {
 /// `fits`: those of the first object, with more and more balls wanted, then those of the second one, and so
 /// on: an object begins where fewer balls are wanted than before, or as many.
 ///
-/// Fits above a line between two others are left out (in 1 / sqrt(k)). Between two fits the volume outside is
-/// taken for linear in 1 / sqrt(k), which is how it falls where edges dominate, beyond the last one for
-/// proportional to that. One ball after another goes to the object that gains most by it. Which objects come
-/// first does not matter but for ties.
+/// A fit counts for the balls it uses. Between two fits the volume outside is taken for linear in
+/// 1 / sqrt(k), which is how it falls where edges dominate; beyond the last one for proportional to that, or,
+/// where that did not use all balls it might, for constant. Of all ways to hand out the balls this is one
+/// with the least weighted sum, by dynamic programming; what nobody can use is left. Beyond 4096 balls they
+/// go out in blocks of equal size, and less than one block is left.
 /// - Throws InputError where the numbers of weights or fixed counts are not those of the objects, and where
 /// fixed counts and minima are
 ///   more than all balls.

@@ -41,16 +41,17 @@ struct AllocateBalls {
   std::string weights, fixed;
 
   static void declare(NodeDecl<AllocateBalls>& d) {
-    d.id("AllocateBalls", 1)
+    d.id("AllocateBalls", 2)
         .summary("Hand out a number of balls to several objects, so that together they waste little volume.");
     d.doc(
-        "One ball after another goes to the object whose volume outside falls most by it. That volume is "
-        "known from fits with a few numbers "
+        "Of all ways to hand them out one with the least volume outside. That volume is known from fits with "
+        "a few numbers "
         "of balls for each object; between them it is taken for linear in 1 / sqrt(k), beyond the last one "
-        "for proportional to that. Small objects "
+        "for proportional to that, or for constant where that did not use all its balls: what no object can "
+        "use is not handed out. Small objects "
         "get few balls then, and a large part of their volume outside: minimum and weights help them.");
     d.avoid_when("there is one object.");
-    d.cites("fox1966", "one after another to whom gains most is best where gains fall");
+    d.cites("bellman1957", "one object after another, with every number of balls");
     d.memory(1 << 20, 1);
     d.input("fits", &AllocateBalls::fits)
         .doc(
@@ -91,7 +92,7 @@ struct BallCount {
     d.doc(
         "So that what one object gets depends on its own number only, and stays in the cache when others "
         "change.");
-    d.cites("fox1966", "where the counts come from");
+    d.cites("bellman1957", "where the counts come from");
     d.avoid_when("a number is known beforehand: the parameter balls of EncloseBalls.");
     d.memory(1 << 16, 1);
     d.input("counts", &BallCount::counts).doc("of several objects");

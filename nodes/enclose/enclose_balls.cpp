@@ -150,6 +150,17 @@ void descend(const Problem& problem, BallCover& cover, EnclosingSearch& search, 
   if (cover.waste() >= waste) search.take(before);
 }
 
+/// Where some balls have no use, since no single split gains: whether all balls together find one.
+void use_all_balls(const Problem& problem, BallCover& cover, EnclosingSearch& search, Monitor& monitor) {
+  if (cover.used() == cover.places()) return;
+  const std::int64_t waste = cover.waste();
+  const std::vector<FloatBall> before = search.balls();
+  search.fill_anyway();
+  descend(problem, cover, search, 250, monitor);
+  search.fill();
+  if (cover.waste() >= waste) search.take(before);
+}
+
 std::vector<FloatBall> search_coarsely(const Problem& problem, const std::vector<FloatBall>& start,
                                        const EncloseBallsOptions& options, Random& random, Monitor& monitor) {
   BallCover cover = problem.cover();
@@ -176,6 +187,7 @@ std::vector<FloatBall> search_coarsely(const Problem& problem, const std::vector
     descend(problem, cover, search, 120, part);
     search.fill();
   }
+  use_all_balls(problem, cover, search, second);
   search.sweep(5);
   return search.balls();
 }
@@ -194,6 +206,8 @@ std::vector<FloatBall> search_finely(Problem& problem, std::vector<FloatBall> ba
       for (std::size_t n = 0; n < 3 * cover.places(); ++n) search.shift();
       search.sweep(3);
       search.fill();
+      PartMonitor part(monitor, static_cast<double>(level) / levels, 1);
+      use_all_balls(problem, cover, search, part);
     } else {
       problem.cut_seams(cover);
     }

@@ -22,7 +22,7 @@ struct EncloseBalls {
   EncloseBallsOptions options;
 
   static void declare(NodeDecl<EncloseBalls>& d) {
-    d.id("EncloseBalls", 1)
+    d.id("EncloseBalls", 2)
         .summary(
             "A given number of balls that contain a surface and all inside it, with little volume outside.");
     d.doc(

@@ -262,6 +262,7 @@ void EnclosingSearch::plan_split(std::size_t i) {
     const float waste = fit_.weight_in_either(a, b);
     if (waste >= least) continue;
     least = waste;
+    plan.possible = true;
     plan.gain = static_cast<std::int64_t>(alone - waste);
     splits_[i] = plan;
   }
@@ -284,16 +285,21 @@ bool EnclosingSearch::split(std::size_t i) {
   return cover_.waste() < waste;
 }
 
+std::size_t EnclosingSearch::best_split() {
+  std::size_t best = cover_.places();
+  for (std::size_t i = 0; i < cover_.places(); ++i) {
+    if (!cover_.place(i).used) continue;
+    look();
+    if (!splits_[i].known) plan_split(i);
+    if (!splits_[i].possible) continue;
+    if (best == cover_.places() || splits_[i].gain > splits_[best].gain) best = i;
+  }
+  return best;
+}
+
 void EnclosingSearch::fill() {
   while (cover_.used() < cover_.places()) {
-    look();
-    std::size_t best = cover_.places();
-    for (std::size_t i = 0; i < cover_.places(); ++i) {
-      if (!cover_.place(i).used) continue;
-      look();
-      if (!splits_[i].known) plan_split(i);
-      if (best == cover_.places() || splits_[i].gain > splits_[best].gain) best = i;
-    }
+    const std::size_t best = best_split();
     if (best == cover_.places() || splits_[best].gain <= 0) break;
     const std::vector<Split> splits = splits_;
     const std::vector<Removal> removals = removals_;
@@ -303,6 +309,16 @@ void EnclosingSearch::fill() {
       removals_ = removals;
       splits_[best].gain = 0;
     }
+    cover_.forget();
+  }
+}
+
+void EnclosingSearch::fill_anyway() {
+  // Splits may free balls again, so that places alone do not end it.
+  for (std::size_t n = cover_.places() - cover_.used(); n > 0; --n) {
+    const std::size_t best = best_split();
+    if (best == cover_.places() || cover_.used() == cover_.places()) break;
+    split(best);
     cover_.forget();
   }
 }

@@ -10,8 +10,8 @@
 
 namespace ballflow::geometry {
 
-/// Every step keeps all patches covered and none makes the waste greater. One thread; what is counted is
-/// work, not time.
+/// Every step keeps all patches covered and none but fill_anyway() makes the waste greater. One thread; what
+/// is counted is work, not time.
 class EnclosingSearch {
  public:
   EnclosingSearch(BallCover& cover, Random& random, Monitor& monitor)
@@ -27,8 +27,12 @@ class EnclosingSearch {
   std::vector<std::size_t> repair();
   /// Every ball once, in random order, up to `most` times or until that gains little.
   void sweep(int most);
-  /// Splits the ball where that gains most, while there are places.
+  /// Splits the ball where that gains most, while there are places and that gains.
   void fill();
+  /// Splits the ball where that gains most or costs least, while there are places, and does not ask whether
+  /// it gains: where no single split does (a ball across a tube, say), all balls together may, once there are
+  /// more.
+  void fill_anyway();
   /// Hands patches at the rim of a random ball to a neighbour.
   void shift();
   /// Removes the ball that is missed least and splits another one; false when that gains nothing.
@@ -37,7 +41,8 @@ class EnclosingSearch {
  private:
   struct Split {
     bool known = false;
-    std::int64_t gain = 0;
+    bool possible = false;
+    std::int64_t gain = 0;  // an estimate
     // Patches go to the first half whose middles have a key of at most `limit`: the distance from `where`, or
     // the coordinate along it.
     bool disc = false;
@@ -60,6 +65,8 @@ class EnclosingSearch {
   std::vector<std::size_t> nearest_balls(std::size_t i, std::size_t count) const;
   void step_all(const std::vector<std::size_t>& places);
   void plan_split(std::size_t i);
+  /// The ball whose split gains most; places() where none can be split.
+  std::size_t best_split();
   bool split(std::size_t i);
   void plan_removal(std::size_t i);
   std::vector<std::size_t> remove_and_repair(std::size_t i);

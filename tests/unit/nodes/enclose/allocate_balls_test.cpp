@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "base/monitor.hpp"
+#include "base/random.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -18,7 +21,7 @@ std::vector<EnclosureFit> fits_of(const std::vector<double>& objects) {
   for (const double c : objects) {
     for (const std::int64_t k : {2, 8, 32}) {
       EnclosureFit fit;
-      fit.wanted = k;
+      fit.wanted = fit.balls = k;
       fit.loss = c / std::sqrt(static_cast<double>(k));
       fits.push_back(fit);
     }
@@ -63,13 +66,66 @@ TEST(allocate_balls, keeps_minima_and_fixed_counts_and_looks_at_weights) {
   EXPECT_EQ(allocated({0.01, 100, 1}, options), (std::vector<std::int32_t>{1, 2, 3}));
 }
 
-TEST(allocate_balls, a_fit_without_luck_does_not_end_the_gains_of_an_object) {
+/// Where a few more balls gain nothing and many gain much, one after another would never get there.
+TEST(allocate_balls, is_the_best_of_all_ways_over_a_plateau) {
+  Random random(4);
+  constexpr int total = 30;
+  for (int trial = 0; trial < 50; ++trial) {
+    std::vector<EnclosureFit> fits;
+    for (int object = 0; object < 3; ++object) {
+      double loss = 1;
+      for (const std::int64_t k : {1, 2, 3, 4, 5, 8, 12, 20, 30}) {
+        loss *= random.unit() < 0.5 ? 1 : random.unit();
+        EnclosureFit fit;
+        fit.wanted = fit.balls = k;
+        fit.loss = loss;
+        fits.push_back(fit);
+      }
+    }
+    AllocateBallsOptions one;
+    const auto loss = [&](std::size_t object, int k) {
+      one.balls = one.minimum = k;
+      return allocate_balls(std::span(fits).subspan(9 * object, 9), one).outside[0];
+    };
+    std::vector<std::vector<double>> losses(3, std::vector<double>(total));
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (int k = 1; k < total; ++k) losses[i][static_cast<std::size_t>(k)] = loss(i, k);
+    }
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t a = 1; a < total; ++a) {
+      for (std::size_t b = 1; a + b < total; ++b)
+        least = std::min(least, losses[0][a] + losses[1][b] + losses[2][total - a - b]);
+    }
+    AllocateBallsOptions options;
+    options.balls = total;
+    const BallCounts counts = allocate_balls(fits, options);
+    EXPECT_NEAR(counts.outside[0] + counts.outside[1] + counts.outside[2], least, 1e-12) << trial;
+    EXPECT_LE(counts.counts[0] + counts.counts[1] + counts.counts[2], total);
+  }
+}
+
+TEST(allocate_balls, very_many_go_out_in_blocks) {
+  AllocateBallsOptions options;
+  options.balls = 100'000;
+  const std::vector<std::int32_t> counts = allocated({1, 1, 8}, options);
+  EXPECT_NEAR(counts[0] + counts[1] + counts[2], options.balls, 25);
+  EXPECT_NEAR(counts[2], 4 * counts[0], 200);  // equal marginal gains: k^(3/2) as c
+}
+
+TEST(allocate_balls, what_an_object_could_not_use_goes_to_others) {
   std::vector<EnclosureFit> fits = fits_of({7, 3});
-  fits[1].loss = fits[0].loss;  // 8 balls are no better than 2
+  for (const std::size_t wanted : {1, 2}) {  // 8 and 32 balls: it used 5
+    fits[wanted].balls = 5;
+    fits[wanted].loss = 7 / std::sqrt(5.0);
+  }
   AllocateBallsOptions options;
   options.balls = 40;
-  const BallCounts found = allocate_balls(fits, options), lucky = allocate_balls(fits_of({7, 3}), options);
-  EXPECT_EQ(found.counts[0], lucky.counts[0]);
+  const BallCounts counts = allocate_balls(fits, options);
+  EXPECT_EQ(counts.counts[0], 5);
+  EXPECT_EQ(counts.counts[1], 35);
+  EXPECT_NEAR(counts.outside[0] + counts.outside[1], 7 / std::sqrt(5.0) + 3 / std::sqrt(35.0), 1e-12);
+  fits.resize(3);  // nobody else is there
+  EXPECT_EQ(allocate_balls(fits, options).counts[0], 5);
 }
 
 TEST(allocate_balls, refuses_what_does_not_add_up) {

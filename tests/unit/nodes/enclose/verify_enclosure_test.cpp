@@ -3,20 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
-#include <fstream>
 #include <limits>
 #include <random>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "enclose/covered_triangles.hpp"
 #include "enclose_shapes.hpp"
-#include "io/file_content.hpp"
 #include "power/power_diagram.hpp"
 #include "sample/generate.hpp"
-#include "test_data.hpp"
+#include "shipped_spheres.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -209,42 +205,37 @@ TEST(verify_enclosure, names_the_first_place_and_refuses_what_it_cannot_use) {
   EXPECT_EQ(verify_enclosure(mesh, {}, report).open_area, 6);
 }
 
-/// Triangles and spheres that other tools ship, beside what 100 000 samples said about them.
 TEST(verify_enclosure, says_of_the_spheres_of_other_tools_what_samples_say) {
-  const std::string measured = test::data_file("spheres/measured.txt");
-  if (measured.empty()) GTEST_SKIP() << "no spheres of other tools here";
-  std::ifstream lines(measured);
-  int files = 0;
-  for (std::string line; std::getline(lines, line);) {
-    char name[64];
-    double outside = 0, gap = 0;
-    const std::size_t share = line.find("surf-unc"), far = line.find("maxgap");
-    if (share == std::string::npos || std::sscanf(line.c_str(), "%63s", name) != 1 ||
-        std::sscanf(line.c_str() + share, "surf-unc %lf%%", &outside) != 1 ||
-        std::sscanf(line.c_str() + far, "maxgap %lfmm", &gap) != 1)
-      continue;
-    const std::string file = test::data_file("spheres/" + std::string(name) + ".gz");
-    ASSERT_FALSE(file.empty()) << name;
-    std::istringstream in(std::string(read_file_content(file, 1 << 24).view()));
-    std::size_t triangle_count = 0, ball_count = 0;
-    in >> triangle_count >> ball_count;
-    std::vector<Vec3> vertices(3 * triangle_count), centers(ball_count);
-    std::vector<Triangle> triangles;
-    std::vector<double> radii(ball_count);
-    for (Vec3& v : vertices) in >> v.x >> v.y >> v.z;
-    for (std::size_t i = 0; i < ball_count; ++i)
-      in >> centers[i].x >> centers[i].y >> centers[i].z >> radii[i];
-    for (std::size_t t = 0; t < triangle_count; ++t) {
-      const auto k = static_cast<std::int32_t>(3 * t);
-      triangles.push_back({k, k + 1, k + 2});
-    }
-    const Enclosure found = verify_enclosure({vertices, triangles}, balls_of(centers, radii), report);
-    EXPECT_FALSE(found.encloses()) << name;
-    EXPECT_NEAR(100 * found.open_area / found.area, outside, 1.0) << name;
-    EXPECT_NEAR(1000 * found.gap, gap, 0.03 * gap + 0.3) << name;
-    ++files;
+  const std::vector<ShippedSpheres> shipped = shipped_spheres();
+  if (shipped.empty()) GTEST_SKIP() << "SKIPPED: no spheres of other tools here";
+  for (const ShippedSpheres& link : shipped) {
+    const Enclosure found = verify_enclosure(link.mesh, link.balls, report);
+    EXPECT_FALSE(found.encloses()) << link.name;
+    EXPECT_NEAR(found.open_area / found.area, link.outside, 0.01) << link.name;
+    EXPECT_NEAR(found.gap, link.gap, 0.03 * link.gap + 0.0003) << link.name;
   }
-  EXPECT_GT(files, 30);
+  EXPECT_GT(shipped.size(), 30U);
+}
+
+/// Samples miss what stands out a little: grown by the largest gap that 100 000 of them found, the spheres of
+/// every link still leave something out, of ten of them more than 0.05 mm.
+TEST(verify_enclosure, refuses_spheres_that_enclose_all_samples) {
+  const std::vector<ShippedSpheres> shipped = shipped_spheres();
+  if (shipped.empty()) GTEST_SKIP() << "SKIPPED: no spheres of other tools here";
+  int links = 0, seen = 0;
+  for (const ShippedSpheres& link : shipped) {
+    if (link.name.rfind("morphit", 0) != 0) continue;
+    std::vector<double> radii(link.balls.radii.begin(), link.balls.radii.end());
+    for (double& r : radii) r += link.gap;
+    const Enclosure found = verify_enclosure(
+        link.mesh, balls_of({link.balls.centers.begin(), link.balls.centers.end()}, radii), report);
+    EXPECT_FALSE(found.encloses()) << link.name;
+    EXPECT_LT(found.gap, 0.001) << link.name;
+    ++links;
+    seen += found.gap > 5e-5 ? 1 : 0;
+  }
+  EXPECT_EQ(links, 18);
+  EXPECT_EQ(seen, 10);
 }
 
 }  // namespace
