@@ -96,7 +96,7 @@ TEST_F(CloudTest, has_proven_radii_from_all_poles_only) {
 
 TEST_F(CloudTest, a_number_of_balls_that_cannot_be_reached_is_named) {
   const auto failed =
-      run("k_balls", {"--set", "input=shape:torus?n=1500", "--set", "k=3", "--set", "largest=2"});
+      run("k_balls", {"--set", "input=shape:torus?n=1500", "--set", "balls=3", "--set", "largest=2"});
   EXPECT_EQ(failed.exit_code, 3);
   EXPECT_NE(failed.err.find("the largest allowed, still needs"), std::string::npos) << failed.err;
   EXPECT_NE(failed.err.find("balls, not 3"), std::string::npos) << failed.err;

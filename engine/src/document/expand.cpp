@@ -50,7 +50,7 @@ class Expander {
         params.emplace_back(nullptr);
         continue;
       }
-      if (const PlacedSetting* setting = settings_.find("", param.decl.name)) {
+      if (const PlacedSetting* setting = setting_of("", param.decl.name, param.alias)) {
         params.push_back(param.broken ? std::nullopt : value_of(*setting, param.decl));
       } else if (param.broken) {
         params.push_back(std::nullopt);
@@ -123,11 +123,18 @@ class Expander {
     });
   }
 
+  /// By its name, else by its alias; where both are set, nothing looks for the alias, and that is reported.
+  const PlacedSetting* setting_of(const std::string& path, const std::string& name, const std::string& alias) {
+    const PlacedSetting* setting = settings_.find(path, name);
+    return setting == nullptr && !alias.empty() ? settings_.find(path, alias) : setting;
+  }
+
   /// The value written for `param` at a node, or from a setting. Nothing when absent or wrong.
   std::optional<Json> given_value(const Scope& scope, const GraphNode::Param* written,
-                                  const std::string& path, const ParamDecl& param, bool& given) {
+                                  const std::string& path, const ParamDecl& param, bool& given,
+                                  const std::string& alias = {}) {
     given = true;
-    if (const PlacedSetting* setting = settings_.find(path, param.name)) return value_of(*setting, param);
+    if (const PlacedSetting* setting = setting_of(path, param.name, alias)) return value_of(*setting, param);
     given = written != nullptr;
     if (!given) return std::nullopt;
     std::optional<Json> value = written->value.evaluate(scope.params);
@@ -293,6 +300,11 @@ class Expander {
     std::vector<std::string> known;
     for (const GraphParam& param : file.params) {
       known.push_back(param.decl.name);
+      const GraphNode::Param* written = node.param(param.decl.name);
+      if (written == nullptr && !param.alias.empty()) {
+        known.push_back(param.alias);
+        written = node.param(param.alias);
+      }
       if (param.decl.kind == ParamKind::artifact && !param.broken) {
         findings_.error(*scope.file, node.offset,
                         node_is + " " + in_quotes(node.name) + " (" + file.source.file() +
@@ -307,7 +319,7 @@ class Expander {
         continue;
       }
       bool given = false;
-      std::optional<Json> value = given_value(scope, node.param(param.decl.name), path, param.decl, given);
+      std::optional<Json> value = given_value(scope, written, path, param.decl, given, param.alias);
       if (const MapList* list = given ? nullptr : entry.list_of(param.decl)) {
         value = entry_value(*scope.file, *list, entry.index, findings_);
         given = true;

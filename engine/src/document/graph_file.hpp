@@ -41,6 +41,7 @@ struct Reference {
 
 struct GraphParam {
   ParamDecl decl;
+  std::string alias;  // a former name that still sets it; may be empty
   Offset offset = 0;
   bool broken = false;
   bool used = false;

@@ -110,6 +110,10 @@ class Reader {
       file_.input_index.emplace(member.key, file_.inputs.size());
       file_.inputs.push_back(std::move(input));
     }
+    for (const GraphParam& other : file_.params) {
+      if (other.alias == member.key)
+        error(member.offset, in_quotes(member.key) + " is the alias of " + in_quotes(other.decl.name) + " already");
+    }
     file_.param_index.emplace(member.key, file_.params.size());
     file_.params.push_back(std::move(param));
   }

@@ -19,7 +19,8 @@ class ParamReader {
   ParamReader(const GraphFile& file, Findings& findings) : file_(file), findings_(findings) {}
 
   /// False when something is wrong.
-  bool read(const Member& member, ParamDecl& decl) {
+  bool read(const Member& member, GraphParam& param) {
+    ParamDecl& decl = param.decl;
     bool good = true;
     if (!is_identifier(member.key)) {
       error(member.offset, in_quotes(member.key) + " is no name of a parameter",
@@ -33,7 +34,7 @@ class ParamReader {
       return false;
     }
     good = known_keys(member.value, "a parameter",
-                      {"kind", "default", "minimum", "maximum", "choices", "unit", "doc", "type"}) &&
+                      {"kind", "default", "minimum", "maximum", "choices", "unit", "doc", "type", "alias"}) &&
            good;
     const Value* kind = member.value.find("kind");
     if (kind == nullptr) {
@@ -61,6 +62,7 @@ class ParamReader {
       if (field.key == "choices") good = read_choices(*(choices = &field), decl) && good;
       if (field.key == "default") default_value = &field.value;
       if (field.key == "type") good = artifact_type(field, decl) && good;
+      if (field.key == "alias") good = read_alias(field, member.key, decl, param.alias) && good;
     }
     if (decl.kind == ParamKind::artifact && decl.type.empty()) {
       if (good)
@@ -95,6 +97,19 @@ class ParamReader {
   }
 
   bool text(const Member& member, std::string& to) { return read_text(file_, findings_, member, to); }
+
+  bool read_alias(const Member& field, const std::string& name, const ParamDecl& decl, std::string& alias) {
+    if (!text(field, alias)) return false;
+    std::string why;
+    if (!is_identifier(alias)) why = "is no name of a parameter";
+    if (alias == name || file_.param_index.contains(alias)) why = "is the name of a parameter already";
+    for (const GraphParam& other : file_.params) {
+      if (other.alias == alias) why = "is the alias of " + in_quotes(other.decl.name) + " already";
+    }
+    if (decl.kind == ParamKind::artifact) why = "cannot stand for an artifact";
+    if (!why.empty()) error(field.value.offset, "the alias " + in_quotes(alias) + " " + why);
+    return why.empty();
+  }
 
   bool artifact_type(const Member& field, ParamDecl& decl) {
     if (decl.kind != ParamKind::artifact) {
@@ -173,7 +188,7 @@ GraphParam read_param(const GraphFile& file, Findings& findings, const Member& m
   GraphParam param;
   param.offset = member.offset;
   param.decl.name = member.key;
-  param.broken = !ParamReader(file, findings).read(member, param.decl);
+  param.broken = !ParamReader(file, findings).read(member, param);
   return param;
 }
 

@@ -49,6 +49,21 @@ TEST(graph_error, prints_place_line_caret_and_hint) {
   }
 }
 
+TEST(graph_error, aliases_that_name_something_else) {
+  const auto with = [](const std::string& params) {
+    return errors("{\"params\":{\n" + params +
+                  "},\"nodes\":{\"l\":{\"type\":\"Load\",\"params\":{\"file\":\"x\"}}},"
+                  "\"outputs\":{\"p\":\"l.points\"}}");
+  };
+  const std::string a = R"("a":{"kind":"number","default":1})";
+  EXPECT_NE(with(a + R"(,"b":{"kind":"number","default":1,"alias":"a"})").find("is the name of a parameter already"),
+            std::string::npos);
+  EXPECT_NE(with(R"("b":{"kind":"number","default":1,"alias":"a"},)" + a).find("\"a\" is the alias of \"b\" already"),
+            std::string::npos);
+  EXPECT_NE(with(R"("b":{"kind":"number","default":1,"alias":"2b"})").find("is no name of a parameter"),
+            std::string::npos);
+}
+
 TEST(graph_error, syntax) {
   EXPECT_EQ(
       errors(""),

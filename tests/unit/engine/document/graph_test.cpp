@@ -64,6 +64,28 @@ TEST(graph, becomes_a_dag_in_topological_order_with_defaults_filled_in) {
   EXPECT_EQ(dag.find("nothing"), nullptr);
 }
 
+TEST(graph, a_parameter_is_set_by_its_former_name_too) {
+  const test::TempFolder folder;
+  const auto write = [&](const std::string& name, const std::string& text) {
+    test::write_file(folder.file(name), text);
+    return folder.file(name);
+  };
+  const std::string inner = write("inner.json", R"({
+    "params": { "growth": { "kind": "number", "default": 1, "alias": "epsilon" } },
+    "nodes": { "load": { "type": "Load", "params": { "file": "x", "scale": "${growth}" } } } })");
+  const auto scale = [](const Dag& dag) { return dag.nodes.at(0).params.at("scale"); };
+  EXPECT_EQ(scale(load(inner)), 1.0);
+  EXPECT_EQ(scale(load(inner, {{"growth", "2"}})), 2.0);
+  EXPECT_EQ(scale(load(inner, {{"epsilon", "3"}})), 3.0);
+  EXPECT_EQ(load(inner, {{"epsilon", "3"}}).params.at("growth"), 3.0);
+  const std::string outer = write("outer.json", R"({
+    "nodes": { "part": { "graph": "inner.json", "params": { "epsilon": 4 } } } })");
+  EXPECT_EQ(scale(load(outer)), 4.0);
+  EXPECT_EQ(scale(load(outer, {{"part.epsilon", "5"}})), 5.0);
+  EXPECT_EQ(scale(load(outer, {{"part.growth", "6"}})), 6.0);
+  EXPECT_THROW(load(inner, {{"growth", "2"}, {"epsilon", "3"}}), GraphError);  // which one counts?
+}
+
 TEST(graph, ties_of_the_topological_order_are_broken_by_path) {
   const Dag dag = parse(R"({"nodes":{
     "c":{"type":"Load","params":{"file":"x"}},"a":{"type":"Load","params":{"file":"x"}},
