@@ -24,7 +24,6 @@ class Reader {
 
   Urdf read() {
     tinyxml2::XMLDocument document;
-    if (text_.find("xacro:") != std::string_view::npos) refuse_xacro();
     if (document.Parse(text_.data(), text_.size()) != tinyxml2::XML_SUCCESS) {
       fail(document.ErrorLineNum(),
            std::string("this is no XML: ") + document.ErrorIDToName(document.ErrorID()),
@@ -39,6 +38,7 @@ class Reader {
                                                   : "the root element is <" + name + ">, not <robot>";
       fail(*root, what, "give the URDF of the robot");
     }
+    refuse_xacro(*root);
     if (const char* name = root->Attribute("name")) urdf_.name = name;
     for (const XMLElement* at = root->FirstChildElement(); at != nullptr; at = at->NextSiblingElement()) {
       const std::string name = at->Name();
@@ -60,15 +60,18 @@ class Reader {
     fail(at.GetLineNum(), cause, hint);
   }
 
-  /// Attributes like xmlns:xacro stay behind when a file is expanded, elements and commands do not.
-  void refuse_xacro() const {
-    const std::size_t element = std::min(text_.find("<xacro:"), text_.find("${"));
-    if (element == std::string_view::npos) return;
-    const auto line =
-        1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(element), '\n');
-    const std::string stem = file_.ends_with(".xacro") ? file_.substr(0, file_.size() - 6) : "robot.urdf";
-    fail(static_cast<int>(line), "this is a xacro file, which has to be expanded first",
-         "xacro " + file_ + " > " + (stem.ends_with(".urdf") ? stem : stem + ".urdf"));
+  /// The attribute xmlns:xacro and comments stay behind when a file is expanded, elements and commands do not.
+  void refuse_xacro(const XMLElement& at) const {
+    bool found = std::string_view(at.Name()).starts_with("xacro:");
+    for (const tinyxml2::XMLAttribute* a = at.FirstAttribute(); a != nullptr; a = a->Next())
+      found = found || std::strstr(a->Value(), "${") != nullptr || std::strstr(a->Value(), "$(") != nullptr;
+    if (found) {
+      const std::string stem = file_.ends_with(".xacro") ? file_.substr(0, file_.size() - 6) : "robot.urdf";
+      fail(at, "this is a xacro file, which has to be expanded first",
+           "xacro " + file_ + " > " + (stem.ends_with(".urdf") ? stem : stem + ".urdf"));
+    }
+    for (const XMLElement* part = at.FirstChildElement(); part != nullptr; part = part->NextSiblingElement())
+      refuse_xacro(*part);
   }
 
   std::string attribute(const XMLElement& at, const char* name, const std::string& owner) const {

@@ -87,12 +87,12 @@ TEST(urdf, xacro_is_refused_with_the_command_that_expands_it) {
       refusal(text, "dir/r.urdf.xacro"),
       "dir/r.urdf.xacro:3: this is a xacro file, which has to be expanded first\nxacro dir/r.urdf.xacro > "
       "dir/r.urdf");
-  EXPECT_NE(refusal(robot(link("${prefix}a") + "<!-- xacro: -->")).find("xacro r.urdf > robot.urdf"),
-            std::string::npos);
-  // An expanded file keeps the attribute.
-  EXPECT_EQ(
-      refusal("<robot xmlns:xacro=\"http://www.ros.org/wiki/xacro\" name=\"r\">" + link("a") + "</robot>"),
-      "");
+  EXPECT_NE(refusal(robot(link("${prefix}a"))).find("xacro r.urdf > robot.urdf"), std::string::npos);
+  EXPECT_NE(refusal(robot(link("$(arg a)"))).find("xacro r.urdf > robot.urdf"), std::string::npos);
+  // An expanded file keeps the attribute, and comments with what was there.
+  EXPECT_EQ(refusal("<robot xmlns:xacro=\"http://www.ros.org/wiki/xacro\" name=\"r\">" + link("a") +
+                    "<!-- <xacro:box size=\"${w} $(arg h)\"/> --></robot>"),
+            "");
 }
 
 TEST(urdf, links_that_are_no_tree_are_named_with_their_lines) {
