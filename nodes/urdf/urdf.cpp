@@ -60,7 +60,8 @@ class Reader {
     fail(at.GetLineNum(), cause, hint);
   }
 
-  /// The attribute xmlns:xacro and comments stay behind when a file is expanded, elements and commands do not.
+  /// The attribute xmlns:xacro and comments stay behind when a file is expanded, elements and commands do
+  /// not.
   void refuse_xacro(const XMLElement& at) const {
     bool found = std::string_view(at.Name()).starts_with("xacro:");
     for (const tinyxml2::XMLAttribute* a = at.FirstAttribute(); a != nullptr; a = a->Next())

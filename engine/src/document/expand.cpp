@@ -124,7 +124,8 @@ class Expander {
   }
 
   /// By its name, else by its alias; where both are set, nothing looks for the alias, and that is reported.
-  const PlacedSetting* setting_of(const std::string& path, const std::string& name, const std::string& alias) {
+  const PlacedSetting* setting_of(const std::string& path, const std::string& name,
+                                  const std::string& alias) {
     const PlacedSetting* setting = settings_.find(path, name);
     return setting == nullptr && !alias.empty() ? settings_.find(path, alias) : setting;
   }

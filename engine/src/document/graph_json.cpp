@@ -112,7 +112,8 @@ class Reader {
     }
     for (const GraphParam& other : file_.params) {
       if (other.alias == member.key)
-        error(member.offset, in_quotes(member.key) + " is the alias of " + in_quotes(other.decl.name) + " already");
+        error(member.offset,
+              in_quotes(member.key) + " is the alias of " + in_quotes(other.decl.name) + " already");
     }
     file_.param_index.emplace(member.key, file_.params.size());
     file_.params.push_back(std::move(param));

@@ -56,9 +56,11 @@ TEST(graph_error, aliases_that_name_something_else) {
                   "\"outputs\":{\"p\":\"l.points\"}}");
   };
   const std::string a = R"("a":{"kind":"number","default":1})";
-  EXPECT_NE(with(a + R"(,"b":{"kind":"number","default":1,"alias":"a"})").find("is the name of a parameter already"),
+  EXPECT_NE(with(a + R"(,"b":{"kind":"number","default":1,"alias":"a"})")
+                .find("is the name of a parameter already"),
             std::string::npos);
-  EXPECT_NE(with(R"("b":{"kind":"number","default":1,"alias":"a"},)" + a).find("\"a\" is the alias of \"b\" already"),
+  EXPECT_NE(with(R"("b":{"kind":"number","default":1,"alias":"a"},)" + a)
+                .find("\"a\" is the alias of \"b\" already"),
             std::string::npos);
   EXPECT_NE(with(R"("b":{"kind":"number","default":1,"alias":"2b"})").find("is no name of a parameter"),
             std::string::npos);
