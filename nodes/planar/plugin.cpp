@@ -3,6 +3,7 @@
 
 namespace ballflow::nodes {
 const bf_node* read_polygon_entry();
+const bf_node* compare_outlines_entry();
 const bf_node* disc_poles_entry();
 const bf_node* disc_union_outline_entry();
 }  // namespace ballflow::nodes
@@ -10,6 +11,7 @@ const bf_node* disc_union_outline_entry();
 BALLFLOW_PLUGIN("planar", "0.1.0",
                 (std::vector<const bf_node*>{
                     ballflow::nodes::read_polygon_entry(),
+                    ballflow::nodes::compare_outlines_entry(),
                     ballflow::nodes::disc_poles_entry(),
                     ballflow::nodes::disc_union_outline_entry(),
                 }),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "types/disc_outline.hpp"
+#include "types/outline_comparison.hpp"
 #include "types/polygon2.hpp"
 #include "types/type_of.hpp"
 
@@ -15,6 +16,11 @@ struct TypeOf<geometry::Polygon2> {
 template <>
 struct TypeOf<geometry::DiscOutline> {
   static void declare(TypeDecl<geometry::DiscOutline>& d);
+};
+
+template <>
+struct TypeOf<geometry::OutlineComparison> {
+  static void declare(TypeDecl<geometry::OutlineComparison>& d);
 };
 
 }  // namespace ballflow

@@ -11,9 +11,9 @@
 using namespace ballflow::geometry;
 
 BALLFLOW_PLUGIN("types", "0.1.0", ballflow::node_entries<>(),
-                (ballflow::type_entries<BallCounts, Balls, Bisection, Comparison, CoverCheck, CoverState,
-                                        DiscOutline, Enclosure, EnclosureFit, Growth, LocalFeatureSize,
-                                        MassProperties, MedialAxis, MeshReport, MinkowskiReport, NoiseReport,
-                                        PointSet, PoleSet, Polygon2, PowerDiagram, Refinement, Robot,
-                                        RobotSpheres, SampleAssignment, SimplicialComplex, SurfaceBallsReport,
-                                        SurfaceReport, TopologyCheck, TopologyTable, TriangleMesh>()))
+                (ballflow::type_entries<
+                    BallCounts, Balls, Bisection, Comparison, CoverCheck, CoverState, DiscOutline, Enclosure,
+                    EnclosureFit, Growth, LocalFeatureSize, MassProperties, MedialAxis, MeshReport,
+                    MinkowskiReport, NoiseReport, OutlineComparison, PointSet, PoleSet, Polygon2,
+                    PowerDiagram, Refinement, Robot, RobotSpheres, SampleAssignment, SimplicialComplex,
+                    SurfaceBallsReport, SurfaceReport, TopologyCheck, TopologyTable, TriangleMesh>()))

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -225,6 +226,16 @@ std::string describe(const OutputEntry& output) {
          std::string text = counted(s, "components", "polygon");
          if (s.at("holes") != 0) text += " with " + counted(s, "holes", "hole");
          return text + ", " + number(s, "vertices") + " vertices, area " + rounded(s, "area");
+       }},
+      {"OutlineComparison",
+       [](const Json& s) {
+         char text[96];
+         const double larger = std::max(s.at("a_to_b")[1].get<double>(), s.at("b_to_a")[1].get<double>());
+         std::snprintf(text, sizeof text, "boundaries at most %.4g apart", larger);
+         std::string described = text;
+         if (s.at("symmetric_difference").is_number())
+           described += ", " + percent(s.at("symmetric_difference").get<double>()) + " of the area differs";
+         return described;
        }},
       {"DiscOutline",
        [](const Json& s) {

@@ -83,7 +83,8 @@ class Facts {
   void others() {
     if (const OutputEntry* const surface = of_type("SurfaceReport"))
       facts_.push_back("surface: " + describe(*surface));
-    for (const char* type : {"Comparison", "MinkowskiReport", "MeshReport", "Bisection"}) {
+    for (const char* type :
+         {"Comparison", "OutlineComparison", "MinkowskiReport", "MeshReport", "Bisection"}) {
       if (const OutputEntry* const output = of_type(type)) facts_.push_back(describe(*output));
     }
     if (const OutputEntry* const mass = of_type("MassProperties")) facts_.push_back(describe(*mass));
