@@ -133,6 +133,18 @@ TEST_F(SpheresCli, a_mesh_is_checked_by_itself) {
       2);
 }
 
+TEST_F(SpheresCli, a_mesh_gets_a_page_too) {
+  write("cube.off", cube);
+  const ProcessResult made = ballflow({"spheres", folder.file("cube.off"), "--balls", "2", "--effort", "low",
+                                       "--page", folder.file("p.html"), "--picture", folder.file("p.png")});
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  const std::string page = test::read_file(folder.file("p.html"));
+  for (const char* const part : {"1 link is enclosed by", "Link: cube.off", "data:image/png;base64,"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  EXPECT_EQ(test::read_file(folder.file("p.png")).substr(1, 3), "PNG");
+  EXPECT_EQ(ballflow({"spheres", folder.file("cube.off"), "--page", folder.file("cube.off")}).exit_code, 2);
+}
+
 TEST_F(SpheresCli, what_is_wrong_is_said_before_anything_runs) {
   two_cubes("gone.off");
   write("s.csv", "link,x,y,z,radius\na,0.5,0.5,0.5,0.9\n");

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 struct RenderArguments {
   std::vector<std::string> names, layers, colour_by, opacity, clips;
-  std::string output, size = "1600x1200", view = "30,20", up = "y", ground = "white";
+  std::string output, size = "1600x1200", view = "30,20", up, ground = "white";
   double point_size = 0;
   bool beside = false, no_legend = false;
   unsigned threads = 0;
@@ -261,7 +261,6 @@ int render(const Common& common, const RenderArguments& arguments) {
   show::PictureOptions options;
   std::tie(options.width, options.height) = size_named(arguments.size);
   options.from = show::direction_named(arguments.view);
-  options.up = arguments.up == "z" ? show::Upward::z : show::Upward::y;
   options.ground = ground_named(arguments.ground);
   for (const std::string& clip : arguments.clips) options.clips.push_back(show::clip_named(clip));
   options.point_size = arguments.point_size;
@@ -275,6 +274,10 @@ int render(const Common& common, const RenderArguments& arguments) {
     for (const std::string& text : arguments.colour_by) colour(sources, text);
     for (const std::string& text : arguments.opacity) set_opacity(sources, text);
     const std::vector<std::vector<show::Layer>> scenes = scenes_of(sources, arguments);
+    options.up = arguments.up == "z" ? show::Upward::z : show::Upward::y;
+    if (arguments.up.empty()) {
+      for (const auto& scene : scenes) options.up = std::max(options.up, show::upward_of(scene));
+    }
     const show::Image image = [&] {
       DrawingMonitor drawing;
       return show::draw_beside(scenes, options, drawing);
@@ -303,9 +306,9 @@ void add_render(const Command& app, Common& common, Action& action) {
       .option("--view", arguments->view,
               "iso, front, back, left, right, top, bottom, or azimuth,elevation in degrees")
       .shows_default();
-  command.option("--up", arguments->up, "the axis that points up in the picture")
-      .one_of({"y", "z"})
-      .shows_default();
+  command
+      .option("--up", arguments->up, "the axis that points up in the picture; default: z for robots, else y")
+      .one_of({"y", "z"});
   command.option("--ground", arguments->ground, "white, dark, none (transparent) or a colour as #e8ecf0")
       .shows_default();
   command

@@ -39,6 +39,7 @@ void draw_outputs(report::ReportInput& input, Store& store, std::size_t most, ge
     if (std::none_of(layers.begin(), layers.end(), [](const show::Layer& l) { return l.visible; })) continue;
     show::PictureOptions options;
     options.width = 1216, options.height = 760;
+    options.up = show::upward_of(layers);
     input.pictures.push_back({name, show::png(show::draw(layers, options, monitor))});
   }
 }

@@ -105,6 +105,31 @@ std::string digest_of(Store& store, const std::string& file) {
 
 bool is_markdown(const std::string& file) { return file.ends_with(".md") || file.ends_with(".markdown"); }
 
+/// What a page says of spheres that are checked, or made.
+report::SpheresCheck page_of(const Common& common, const SpheresArguments& arguments, bool is_robot,
+                             std::vector<report::LinkCheck> checks) {
+  const bool made = arguments.check.empty();
+  const auto store = common.store();
+  report::SpheresCheck page;
+  page.robot = fs::path(arguments.file).filename().string();
+  page.robot_digest = digest_of(*store, arguments.file);
+  page.spheres =
+      made ? "ballflow spheres, mode " + arguments.mode : fs::path(arguments.check).filename().string();
+  if (!made) page.spheres_digest = digest_of(*store, arguments.check);
+  if (is_robot) page.geometry = arguments.visual ? "visual" : "collision";
+  page.buffer = made ? 0 : arguments.buffer;
+  page.mode = made ? arguments.mode : "";
+  page.enclosing = !made || arguments.mode == "enclose";
+  page.links = std::move(checks);
+  page.version = BALLFLOW_VERSION;
+  return page;
+}
+
+void claim_pages(const Common& common, const SpheresArguments& arguments) {
+  common.places->writes("--page", arguments.page);
+  common.places->writes("--picture", arguments.picture);
+}
+
 /// Draws, and writes the page and the picture that are wished for. Returns their files.
 std::vector<std::string> write_page(const SpheresArguments& arguments, report::SpheresCheck& page,
                                     const Dag& dag, const LoadArtifact& load) {
@@ -139,10 +164,11 @@ void tell_warnings(const Dag& dag, const RunResult& result) {
 
 int check(const Common& common, SpheresArguments arguments) {
   std::vector<std::string> links;
-  std::string robot_name = arguments.file;
+  bool is_robot = false;
   GraphArguments& graph = arguments.run.graph;
   try {
     if (const std::optional<std::string> text = robot_text(common, arguments.file)) {
+      is_robot = true;
       links = links_of(arguments, *text);
       graph.file = graph_file("check_spheres.json");
       graph.sets = {"robot=" + arguments.file,
@@ -163,22 +189,13 @@ int check(const Common& common, SpheresArguments arguments) {
   } catch (const geometry::InputError& error) {
     throw_usage(error);
   }
-  common.places->writes("--page", arguments.page);
-  common.places->writes("--picture", arguments.picture);
+  claim_pages(common, arguments);
   arguments.run.table = false;
   bool enclosed = true;
   const int code =
       run_graph(common, arguments.run, [&](const Dag& dag, const RunResult& result, const auto& load) {
-        report::SpheresCheck page;
-        page.robot = fs::path(arguments.file).filename().string();
-        page.spheres = fs::path(arguments.check).filename().string();
-        const auto store = common.store();
-        page.robot_digest = digest_of(*store, arguments.file);
-        page.spheres_digest = digest_of(*store, arguments.check);
-        page.geometry = arguments.visual ? "visual" : "collision";
-        page.buffer = arguments.buffer;
-        page.links = link_checks(dag, result, links, load);
-        page.version = BALLFLOW_VERSION;
+        report::SpheresCheck page =
+            page_of(common, arguments, is_robot, link_checks(dag, result, links, load));
         enclosed = report::all_enclosed(page);
         if (!arguments.run.quiet && !arguments.run.json) {
           tell_warnings(dag, result);
@@ -266,7 +283,15 @@ int make_for_mesh(const Common& common, SpheresArguments arguments) {
   if (arguments.mode == "enclose" && !arguments.effort.empty())
     graph.sets.push_back("effort=" + arguments.effort);
   for (const std::string& format : arguments.formats) arguments.run.formats.push_back("balls=" + format);
-  return run_graph(common, arguments.run);
+  claim_pages(common, arguments);
+  return run_graph(common, arguments.run, [&](const Dag& dag, const RunResult& result, const auto& load) {
+    const std::vector<std::string> link = {fs::path(arguments.file).filename().string()};
+    report::SpheresCheck page = page_of(common, arguments, false, link_checks(dag, result, link, load));
+    const bool talk = !arguments.run.quiet && !arguments.run.json;
+    for (const std::string& file : write_page(arguments, page, dag, load)) {
+      if (talk) std::printf("wrote %s\n", printable(file).c_str());
+    }
+  });
 }
 
 int make(const Common& common, SpheresArguments arguments) {
@@ -303,8 +328,7 @@ int make(const Common& common, SpheresArguments arguments) {
   const std::string out = std::exchange(arguments.run.out, std::string());  // files of links nobody asked for
   SpheresArguments files = arguments;
   files.run.out = out;
-  common.places->writes("--page", arguments.page);
-  common.places->writes("--picture", arguments.picture);
+  claim_pages(common, arguments);
   if (!out.empty()) {
     for (const std::string& format : arguments.formats)
       common.places->writes("--format " + format, sphere_file(files, format));
@@ -312,15 +336,7 @@ int make(const Common& common, SpheresArguments arguments) {
   }
   arguments.run.table = false;
   return run_graph(common, arguments.run, [&](const Dag& dag, const RunResult& result, const auto& load) {
-    report::SpheresCheck page;
-    page.robot = fs::path(arguments.file).filename().string();
-    page.spheres = "ballflow spheres, mode " + arguments.mode;
-    page.robot_digest = digest_of(*common.store(), arguments.file);
-    page.geometry = arguments.visual ? "visual" : "collision";
-    page.mode = arguments.mode;
-    page.enclosing = arguments.mode == "enclose";
-    page.links = link_checks(dag, result, links, load);
-    page.version = BALLFLOW_VERSION;
+    report::SpheresCheck page = page_of(common, arguments, true, link_checks(dag, result, links, load));
     const bool talk = !arguments.run.quiet && !arguments.run.json;
     if (talk) {
       tell_warnings(dag, result);

@@ -53,8 +53,25 @@ void keep_links(show::Layer& surface, const std::vector<report::LinkCheck>& link
   });
 }
 
+/// Points of voids, which lie inside of the links, and of surfaces.
+show::Layer open_points(const report::SpheresCheck& check, const std::vector<show::Layer>& spheres) {
+  if (spheres.size() > 1) return spheres[1];  // of a robot, where its links are
+  show::Layer layer;
+  layer.name = "not covered";
+  std::vector<geometry::Vec3> points;
+  for (const report::LinkCheck& link : check.links) {
+    const geometry::Enclosure& e = link.enclosure;
+    points.insert(points.end(), e.open_points.begin(), e.open_points.end());
+    points.insert(points.end(), e.void_points.begin(), e.void_points.end());
+  }
+  layer.vertices = std::move(points);
+  return layer;
+}
+
 /// What is seen: where everything is in spheres these are coloured by link, else what they leave out is red.
-std::vector<show::Layer> scene_of(const report::SpheresCheck& check, show::Layer surface, show::Layer balls) {
+std::vector<show::Layer> scene_of(const report::SpheresCheck& check, show::Layer surface,
+                                  const std::vector<show::Layer>& spheres) {
+  show::Layer balls = spheres.front();
   surface.name = "mesh";
   surface.colour_by.clear();
   surface.opacity = 1;
@@ -69,7 +86,10 @@ std::vector<show::Layer> scene_of(const report::SpheresCheck& check, show::Layer
   balls.opacity = 0.25;
   const double edge = geometry::bounding_box(surface.vertices.span()).longest_edge();
   show::SplitSurface parts = show::split_by_balls(surface, balls, 0.0025 * edge);
-  return {std::move(parts.inside), std::move(parts.outside), std::move(balls)};
+  if (!parts.outside.triangles.empty())
+    return {std::move(parts.inside), std::move(parts.outside), std::move(balls)};
+  surface.opacity = 0.3;
+  return {std::move(surface), open_points(check, spheres), std::move(balls)};
 }
 
 }  // namespace
@@ -133,8 +153,7 @@ std::vector<report::Picture> link_pictures(const Dag& dag, const report::Spheres
     spheres.insert(spheres.begin(), show::Layer{});
   spheres.front().shape = show::Shape::balls;
   keep_links(surfaces.front(), check.links);
-  const std::vector<show::Layer> scene =
-      scene_of(check, std::move(surfaces.front()), std::move(spheres.front()));
+  const std::vector<show::Layer> scene = scene_of(check, std::move(surfaces.front()), spheres);
   const char* const what = check.enclosing && !report::all_enclosed(check)
                                ? "What the spheres of a link leave out of it is red"
                                : "Links and spheres";

@@ -87,9 +87,9 @@ std::vector<std::string> sources(const SpheresCheck& check) {
   const auto file = [&](const char* what, const std::string& name, const std::string& digest) {
     lines.push_back(std::string(what) + ": " + name + (digest.empty() ? "" : " (SHA-256 " + digest + ")"));
   };
-  file("Robot", check.robot, check.robot_digest);
+  file(check.geometry.empty() ? "Link" : "Robot", check.robot, check.robot_digest);
   file("Spheres", check.spheres, check.spheres_digest);
-  lines.push_back("Shapes: " + check.geometry);
+  if (!check.geometry.empty()) lines.push_back("Shapes: " + check.geometry);
   if (check.buffer != 0) lines.push_back("Added to every radius: " + length(check.buffer));
   lines.push_back("Checked by: ballflow " + check.version);
   return lines;
@@ -115,7 +115,8 @@ std::vector<std::string> places(const LinkCheck& link, std::size_t most) {
 constexpr std::size_t most_places = 5;
 
 std::string title(const SpheresCheck& check) {
-  return check.enclosing ? "Do the spheres contain the robot?" : "Spheres for the robot";
+  const std::string what = check.geometry.empty() ? "link" : "robot";
+  return check.enclosing ? "Do the spheres contain the " + what + "?" : "Spheres for the " + what;
 }
 
 std::string counted_places(const LinkCheck& link) {
@@ -175,7 +176,13 @@ std::string verdict(const SpheresCheck& check) {
     return line;
   }
   std::string line = std::to_string(all.enclosed) + " of " + links + " enclosed by " + balls;
-  if (all.area > 0)
+  const auto hollow = std::count_if(check.links.begin(), check.links.end(), [](const LinkCheck& link) {
+    return link.enclosure.covers() && !link.enclosure.encloses();
+  });
+  if (hollow > 0)
+    line += "; " + std::to_string(hollow) + (hollow == 1 ? " has" : " have") +
+            " voids inside that no sphere fills";
+  if (all.area > 0 && all.open_area > 0)
     line += "; " + percent(all.open_area / all.area) + " of the surface is outside, up to " + length(all.gap);
   return line;
 }

@@ -28,7 +28,7 @@ struct LinkCurve {
 struct SpheresCheck {
   std::string robot, spheres;                // names of the files
   std::string robot_digest, spheres_digest;  // SHA-256 of the contents; empty where there is no file
-  std::string geometry;                      // "collision" or "visual"
+  std::string geometry;                      // "collision" or "visual"; empty: a mesh, no robot
   double buffer = 0;                         // metres, added to every radius
   std::string mode;       // what they were made for: "enclose", "inside", "protrude"; empty: they are checked
   bool enclosing = true;  // they are meant to contain the links

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <random>
 
 #include "ballflow/error.hpp"
@@ -124,6 +125,14 @@ TEST(camera, refuses_views_that_are_none) {
 TEST(camera, refuses_coordinates_whose_difference_is_no_number) {
   EXPECT_THROW(Camera({balls({{-1.7e308, 0, 0}, {1.7e308, 0, 0}}, {0, 0})}, {}, Upward::y, {0, 0, 9, 9}, 0),
                Error);
+}
+
+TEST(camera, robots_stand_on_z) {
+  Layer still, robot;
+  robot.chain = std::make_shared<const Chain>();
+  EXPECT_EQ(upward_of({}), Upward::y);
+  EXPECT_EQ(upward_of({still}), Upward::y);
+  EXPECT_EQ(upward_of({still, robot}), Upward::z);
 }
 
 }  // namespace

@@ -117,6 +117,29 @@ TEST(spheres_page, a_page_holds_its_pictures_and_loads_nothing) {
   EXPECT_EQ(markdown.find("base64"), std::string::npos);
 }
 
+TEST(spheres_page, a_void_is_told_where_the_surface_is_covered) {
+  LinkCheck hollow = enclosed();
+  hollow.enclosure.void_points = {{0, 0, 0}};
+  hollow.enclosure.void_places = {static_cast<std::uint8_t>(geometry::VoidPlace::inside)};
+  EXPECT_EQ(verdict(check_of({hollow})),
+            "0 of 1 link enclosed by 3 spheres; 1 has voids inside that no sphere fills");
+  EXPECT_EQ(verdict(check_of({hollow, open_link()})),
+            "0 of 2 links enclosed by 6 spheres; 1 has voids inside that no sphere fills; 10 % of the "
+            "surface is outside, "
+            "up to 10 mm");
+  EXPECT_EQ(measures(check_of({hollow}))[1][3], "-") << "not all of the volume is inside";
+}
+
+TEST(spheres_page, a_mesh_is_no_robot) {
+  SpheresCheck check = check_of({enclosed("cube.off")});
+  EXPECT_NE(markdown_page(check).find("Do the spheres contain the robot?"), std::string::npos);
+  check.geometry.clear();
+  const std::string page = markdown_page(check);
+  EXPECT_NE(page.find("Do the spheres contain the link?"), std::string::npos);
+  EXPECT_EQ(page.find("obot"), std::string::npos);
+  EXPECT_EQ(page.find("Shapes"), std::string::npos);
+}
+
 TEST(spheres_page, all_links_count_for_the_verdict) {
   EXPECT_TRUE(all_enclosed(check_of({enclosed(), enclosed("base")})));
   EXPECT_FALSE(all_enclosed(check_of({enclosed(), open_link()})));

@@ -50,6 +50,12 @@ std::vector<std::string> direction_names() {
   return names;
 }
 
+Upward upward_of(const std::vector<Layer>& layers) {
+  const bool jointed =
+      std::any_of(layers.begin(), layers.end(), [](const Layer& layer) { return layer.chain != nullptr; });
+  return jointed ? Upward::z : Upward::y;
+}
+
 Direction direction_named(const std::string& text) {
   for (const auto& [name, direction] : named_directions()) {
     if (name == text) return direction;

@@ -25,6 +25,9 @@ Direction direction_named(const std::string& text);
 /// when z is up.
 enum class Upward { y, z };
 
+/// z where something moves in joints, since descriptions of robots stand on z = 0; else y.
+Upward upward_of(const std::vector<Layer>& layers);
+
 /// Part of a picture, in pixels.
 struct Viewport {
   int x = 0, y = 0, width = 1, height = 1;
