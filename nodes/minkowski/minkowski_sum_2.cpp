@@ -33,6 +33,20 @@ void require_plane(const Balls& discs, const char* name) {
   }
 }
 
+void bound_error(const PolygonComparisons& of, MinkowskiReport& report) {
+  if (of.a == nullptr && of.b == nullptr) return;
+  report.error_bound = 0;
+  const auto add = [&report](const OutlineComparison* comparison, std::uint8_t& compared_with) {
+    if (comparison == nullptr) return;
+    if (const std::string broken = broken_invariant(*comparison); !broken.empty())
+      throw InputError("a comparison is damaged: " + broken, "compute it again");
+    report.error_bound += comparison->a_to_b_at_most;
+    compared_with = static_cast<std::uint8_t>(ComparedWith::closed_mesh);
+  };
+  add(of.a, report.a_compared_with);
+  add(of.b, report.b_compared_with);
+}
+
 Ball ball_of(const Balls& balls, std::size_t i) { return {balls.centers[i], balls.radii[i]}; }
 
 /// Three sums whose centers are not on one line, as they are rounded; none where a and b are on one line.
@@ -151,13 +165,14 @@ class Hierarchical {
 }  // namespace
 
 MinkowskiSum2 minkowski_sum_2(const Balls& a, const Balls& b, const MinkowskiSum2Options& options,
-                              Monitor& monitor) {
+                              Monitor& monitor, const PolygonComparisons& of) {
   require_usable(a, "a");
   require_usable(b, "b");
   require_plane(a, "a");
   require_plane(b, "b");
   MinkowskiSum2 result;
   const Sums sums(a, b);
+  bound_error(of, result.report);
   result.report.pairs = sums.pairs();
   if (sums.pairs() == 0) return result;
   const auto begin = corners(a, b);
@@ -166,6 +181,7 @@ MinkowskiSum2 minkowski_sum_2(const Balls& a, const Balls& b, const MinkowskiSum
     MinkowskiSum line = minkowski_sum(a, b, {}, monitor);
     result.balls = std::move(line.balls);
     result.report = line.report;
+    bound_error(of, result.report);
     return result;
   }
   PlaneSums triangulation((*begin)[0], (*begin)[1], (*begin)[2]);

@@ -5,6 +5,7 @@
 
 #include "exact/cgal_version.hpp"
 #include "types/artifact_types.hpp"
+#include "types/planar_types.hpp"
 
 namespace ballflow::nodes {
 namespace {
@@ -14,6 +15,7 @@ using geometry::MinkowskiSum2Options;
 
 struct MinkowskiSum2 {
   In<geometry::Balls> a, b;
+  In<geometry::OutlineComparison> a_comparison, b_comparison;
   Out<geometry::Balls> balls;
   Out<geometry::MinkowskiReport> report;
   MinkowskiSum2Options options;
@@ -39,9 +41,16 @@ struct MinkowskiSum2 {
     d.memory(std::uint64_t{128} << 20, 1500);
     d.input("a", &MinkowskiSum2::a).doc("discs, model units: balls with z = 0");
     d.input("b", &MinkowskiSum2::b).doc("the same; one disc at the origin grows the other set by its radius");
+    d.input("a_comparison", &MinkowskiSum2::a_comparison)
+        .optional()
+        .doc(
+            "the polygon that a stands for, compared with a polygon inside the union of a: gives the error "
+            "bound; "
+            "without it a stands for itself");
+    d.input("b_comparison", &MinkowskiSum2::b_comparison).optional().doc("the same of b");
     d.output("balls", &MinkowskiSum2::balls)
         .doc("the contributing sums, ascending by x, y of the center, z = 0");
-    d.output("report", &MinkowskiSum2::report).doc("numbers of pairs and discs, bounding box");
+    d.output("report", &MinkowskiSum2::report).doc("numbers of pairs and discs, bounding box, error bound");
     d.choice(
          "algorithm", &MinkowskiSum2::options, &MinkowskiSum2Options::algorithm,
          {{MinkowskiAlgorithm2::filtered, "filtered",
@@ -55,7 +64,9 @@ struct MinkowskiSum2 {
 
   void run(RunContext& context) {
     ContextMonitor monitor(context);
-    geometry::MinkowskiSum2 sum = geometry::minkowski_sum_2(*a, *b, options, monitor);
+    geometry::MinkowskiSum2 sum = geometry::minkowski_sum_2(
+        *a, *b, options, monitor,
+        {.a = a_comparison ? &*a_comparison : nullptr, .b = b_comparison ? &*b_comparison : nullptr});
     balls = std::move(sum.balls);
     report.summary("avoided", sum.avoided);
     report = sum.report;

@@ -22,9 +22,13 @@ using Ring = CGAL::Polygon_2<Kernel>;
 using Part = CGAL::Polygon_with_holes_2<Kernel>;
 using Set = CGAL::Polygon_set_2<Kernel>;
 
-void require_simple(const Polygon2& polygon, const char* name, Monitor& monitor) {
+void require_whole(const Polygon2& polygon, const char* name) {
   if (const std::string broken = broken_invariant(polygon); !broken.empty())
     throw InputError(std::string("input ") + name + ": " + broken, "make it again");
+}
+
+/// False, with a warning, where rings cross or touch.
+bool is_simple(const Polygon2& polygon, const char* name, Monitor& monitor) {
   std::vector<RawRing> rings;
   for (std::size_t k = 0; k < polygon.components(); ++k) {
     for (std::int64_t r = polygon.component_offsets[k]; r < polygon.component_offsets[k + 1]; ++r) {
@@ -34,7 +38,15 @@ void require_simple(const Polygon2& polygon, const char* name, Monitor& monitor)
                        std::string("input ") + name + ", ring " + std::to_string(r)});
     }
   }
-  if (!rings.empty()) nest(std::move(rings), monitor);
+  if (rings.empty()) return true;
+  try {
+    nest(std::move(rings), monitor);
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    monitor.warn("areas are not known: " + text.substr(0, text.find('\n')));
+    return false;
+  }
+  return true;
 }
 
 Set set_of(const Polygon2& polygon) {
@@ -145,8 +157,8 @@ OutlineComparison compare_outlines(const Polygon2& a, const Polygon2& b,
   // Written so that nan fails.
   if (!(options.spacing >= 1e-5 && options.spacing <= 100))
     throw InputError("spacing is " + std::to_string(options.spacing) + " %", "take one from 0.00001 to 100");
-  require_simple(a, "a", monitor);
-  require_simple(b, "b", monitor);
+  require_whole(a, "a");
+  require_whole(b, "b");
   if ((a.components() == 0) != (b.components() == 0)) {
     throw InputError(
         std::string("input ") + (a.components() == 0 ? "a" : "b") + " is empty and the other is not",
@@ -158,17 +170,21 @@ OutlineComparison compare_outlines(const Polygon2& a, const Polygon2& b,
   if (!((perimeter(a) + perimeter(b)) / spacing <= 0x1p26))
     throw InputError("the spacing asks for more than 2^26 samples", "take a larger one");
   monitor.step(0);
-  const Set set_a = set_of(a), set_b = set_of(b);
-  monitor.step(0.2);
-  Set only_a = set_a, only_b = set_b;
-  only_a.difference(set_b);
-  monitor.step(0.5);
-  only_b.difference(set_a);
-  monitor.step(0.8);
-  result.area_a = area_of(set_a);
-  result.area_b = area_of(set_b);
-  result.only_a = area_of(only_a);
-  result.only_b = area_of(only_b);
+  if (is_simple(a, "a", monitor) && is_simple(b, "b", monitor)) {
+    const Set set_a = set_of(a), set_b = set_of(b);
+    monitor.step(0.2);
+    Set only_a = set_a, only_b = set_b;
+    only_a.difference(set_b);
+    monitor.step(0.5);
+    only_b.difference(set_a);
+    monitor.step(0.8);
+    result.area_a = area_of(set_a);
+    result.area_b = area_of(set_b);
+    result.only_a = area_of(only_a);
+    result.only_b = area_of(only_b);
+  } else {
+    result.area_a = result.area_b = result.only_a = result.only_b = -1;
+  }
   const Edges edges_a(a), edges_b(b);
   const Range there = farthest(edges_a, edges_b, spacing, monitor),
               back = farthest(edges_b, edges_a, spacing, monitor);

@@ -23,7 +23,8 @@ struct CompareOutlines {
         "The areas of both, of what is inside one of them alone, from an exact overlay; and how far the "
         "boundary "
         "of each is from that of the other, at least and at most. Accepts polygons with holes and in several "
-        "parts. Refuses polygons whose rings cross or touch, and one that is empty where the other is not.");
+        "parts. Where rings of one cross or touch, areas are unknown, and a warning says where. Refuses one "
+        "that is empty where the other is not.");
     d.avoid_when("shapes are solids: Compare measures meshes against balls.");
     d.cites("kornberger2010", "5.4").cites("fogel2012", "Boolean operations of polygons");
     d.library("CGAL", geometry::cgal_version());

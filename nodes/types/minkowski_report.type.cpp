@@ -20,7 +20,7 @@ void TypeOf<geometry::MinkowskiReport>::declare(TypeDecl<geometry::MinkowskiRepo
   d.scalar("error_bound", &T::error_bound)
       .doc("no point of the surface of the sum of the solids is farther from the union; -1: unknown");
   d.scalar("a_compared_with", &T::a_compared_with)
-      .doc("the solid a: 0 its balls, 1 points, 2 an open mesh, 3 a closed mesh");
+      .doc("the solid a: 0 its balls, 1 points, 2 an open mesh, 3 a closed mesh, or polygons");
   d.scalar("b_compared_with", &T::b_compared_with).doc("the same of b");
   d.summary("pairs", "pairs of balls").summary("survivors", "sums of pairs that were triangulated");
   d.summary("count", "sums that contribute: the balls of the result");

@@ -108,6 +108,24 @@ TEST(minkowski_sum_2, counts_the_discs_with_an_arc_on_the_outline) {
   }
 }
 
+TEST(minkowski_sum_2, bounds_the_error_by_what_was_compared) {
+  const Balls disc = balls_of({{0, 0, 0, 1}}), line = balls_of({{0, 0, 0, 1}, {1, 0, 0, 1}});
+  const OutlineComparison near{.a_to_b_at_least = 0.125, .a_to_b_at_most = 0.25, .b_to_a_at_most = 9},
+      nearer{.a_to_b_at_most = 0.125};
+  const auto bound = [&](const Balls& a, PolygonComparisons of) {
+    const MinkowskiReport report = minkowski_sum_2(a, disc, {}, no_monitor(), of).report;
+    EXPECT_EQ(broken_invariant(report), "");
+    return report.error_bound;
+  };
+  for (const Balls* a : {&disc, &line}) {
+    EXPECT_EQ(bound(*a, {}), -1);
+    EXPECT_EQ(bound(*a, {.a = &near}), 0.25);
+    EXPECT_EQ(bound(*a, {.a = &near, .b = &nearer}), 0.375);
+  }
+  const OutlineComparison wrong{.a_to_b_at_least = 1};
+  EXPECT_THROW(minkowski_sum_2(disc, disc, {}, no_monitor(), {.a = &wrong}), InputError);
+}
+
 TEST(minkowski_sum_2, refuses_balls_in_space) {
   try {
     minkowski_sum_2(balls_of({{0, 0, 0, 1}}), balls_of({{0, 0, 0, 1}, {0, 0, 1, 1}}));
