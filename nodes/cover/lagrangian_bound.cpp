@@ -1,10 +1,13 @@
 #include "cover/lagrangian_bound.hpp"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -17,26 +20,83 @@ namespace {
 using Reals = std::vector<float>;
 using Units = std::vector<std::int64_t>;  // of 1 / price_unit
 
-/// The sum of u over a row. Four sums side by side, always in the same order: the additions of one sum wait
-/// for each other, and the result must not depend on how many the machine does at once.
-float load_of(std::span<const std::int32_t> row, const float* u) {
-  float sums[4] = {0, 0, 0, 0};
-  std::size_t k = 0;
-  for (; k + 4 <= row.size(); k += 4) {
-    sums[0] += u[row[k]];
-    sums[1] += u[row[k + 1]];
-    sums[2] += u[row[k + 2]];
-    sums[3] += u[row[k + 3]];
+/// Sums of values of the columns over every row. Four sums side by side and the rest in the first, always in
+/// the same order: the additions of one sum wait for each other, and the result must not depend on how many
+/// the machine does at once. Rows of like length follow each other, near where they were, and every rest has
+/// three entries, so that a loop ends where the one before it did: nobody can foresee the ends of others.
+/// Columns have 16 bits where that is enough: the entries are read from the memory again and again.
+template <class Number>
+class RowSums {
+ public:
+  RowSums(const Csr& rows, std::size_t columns, Lookout& look) {
+    std::vector<std::int32_t> order(rows.size());
+    std::iota(order.begin(), order.end(), 0);
+    const auto fours = [&rows](std::int32_t i) { return rows.degree(static_cast<std::size_t>(i)) / 4; };
+    for (std::size_t first = 0; first < order.size(); first += window) {
+      const auto begin = order.begin() + static_cast<std::ptrdiff_t>(first);
+      const auto end = order.begin() + static_cast<std::ptrdiff_t>(std::min(first + window, order.size()));
+      std::stable_sort(begin, end, [&](std::int32_t x, std::int32_t y) { return fours(x) < fours(y); });
+    }
+    begin_.push_back(0);
+    for (const std::int32_t i : order) {
+      const auto row = rows[static_cast<std::size_t>(i)];
+      look(row.size());
+      for (const std::int32_t c : row) {
+        entries_.push_back(static_cast<Number>(c));
+      }
+      entries_.resize(entries_.size() + (3 - row.size() % 4), static_cast<Number>(columns));
+      rows_.push_back({i, static_cast<std::int32_t>(fours(i))});
+      begin_.push_back(entries_.size());
+    }
   }
-  for (; k < row.size(); ++k) sums[0] += u[row[k]];
-  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
-}
 
-/// The multipliers of the best bound L(u) that was met.
+  /// `values` has one element more than there are columns, a zero.
+  void operator()(const Reals& values, Reals& sums, Monitor& monitor) const {
+    const std::size_t windows = (rows_.size() + window - 1) / window;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, windows, windows_of_task),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                        Lookout look(monitor);
+                        const std::size_t first = range.begin() * window;
+                        const std::size_t last = std::min(range.end() * window, rows_.size());
+                        const Number* at = entries_.data() + begin_[first];
+                        const float* const u = values.data();
+                        for (std::size_t k = first; k < last; ++k) {
+                          const Row& row = rows_[k];
+                          float a = 0, b = 0, c = 0, d = 0;
+                          for (std::int32_t four = 0; four < row.fours; ++four, at += 4) {
+                            a += u[at[0]];
+                            b += u[at[1]];
+                            c += u[at[2]];
+                            d += u[at[3]];
+                          }
+                          a += u[at[0]];
+                          a += u[at[1]];
+                          a += u[at[2]];
+                          at += 3;
+                          sums[static_cast<std::size_t>(row.number)] = (a + b) + (c + d);
+                          look(static_cast<std::size_t>(row.fours) * 4 + 3);
+                        }
+                      });
+  }
+
+ private:
+  static constexpr std::size_t window = 512;  // rows that are sorted by their lengths
+  static constexpr std::size_t windows_of_task = 8;
+
+  struct Row {
+    std::int32_t number, fours;
+  };
+  std::vector<Row> rows_;
+  std::vector<Number> entries_;  // one row after another: fours, then three of the rest
+  std::vector<std::size_t> begin_;
+};
+
+/// The multipliers of the best bound L(u) that was met. `Number` holds the number of columns.
+template <class Number>
 Reals climb(const Part& part, const LagrangianBoundOptions& options, Monitor& monitor) {
   const std::size_t rows = part.rows.size(), columns = part.columns.size();
   // The share of each sample in the longest row that contains it: the prices of Theorem 3.8.
-  Reals u(columns);
+  Reals u(columns + 1);  // and a zero
   Lookout look(monitor);
   for (std::size_t c = 0; c < columns; ++c) {
     look(part.columns.degree(c));
@@ -46,7 +106,12 @@ Reals climb(const Part& part, const LagrangianBoundOptions& options, Monitor& mo
     }
     u[c] = 1.0F / static_cast<float>(longest);
   }
-  Reals best = u, direction(columns), slope(columns);
+  const RowSums<Number> row_sums(part.rows, columns, look);
+  Reals best = u, direction(columns), loads(rows);
+  // 1 less the rows of each column whose load is more than 1: these change little. Whole numbers, so the
+  // order in which they are added does not matter.
+  Reals slope(columns, 1.0F);
+  std::vector<std::uint8_t> loaded(rows);
   const auto upper = static_cast<double>(greedy_rows(part.rows, columns, monitor).size());
   const auto momentum = static_cast<float>(options.momentum);
   double best_bound = 0, factor = 1;
@@ -55,14 +120,14 @@ Reals climb(const Part& part, const LagrangianBoundOptions& options, Monitor& mo
     if (monitor.cancelled()) throw Cancelled();
     double bound = 0;
     for (std::size_t c = 0; c < columns; ++c) bound += static_cast<double>(u[c]);
-    std::fill(slope.begin(), slope.end(), 1.0F);
+    row_sums(u, loads, monitor);
     for (std::size_t i = 0; i < rows; ++i) {
-      const auto row = part.rows[i];
-      look(row.size());
-      const float load = load_of(row, u.data());
-      if (load <= 1) continue;
-      bound -= static_cast<double>(load) - 1;
-      for (const std::int32_t c : row) slope[static_cast<std::size_t>(c)] -= 1;
+      const bool over = loads[i] > 1;
+      bound -= over ? static_cast<double>(loads[i]) - 1 : 0.0;
+      if (over == (loaded[i] != 0)) continue;
+      loaded[i] = over ? 1 : 0;
+      look(part.rows.degree(i));
+      for (const std::int32_t c : part.rows[i]) slope[static_cast<std::size_t>(c)] += over ? -1.0F : 1.0F;
     }
     if (bound > best_bound * (1 + 1e-7)) {
       best_bound = bound;
@@ -85,6 +150,7 @@ Reals climb(const Part& part, const LagrangianBoundOptions& options, Monitor& mo
     const auto step = static_cast<float>(factor * (upper - best_bound) / norm);
     for (std::size_t c = 0; c < columns; ++c) u[c] = std::clamp(u[c] + step * direction[c], 0.0F, 1.0F);
   }
+  best.pop_back();
   return best;
 }
 
@@ -126,7 +192,9 @@ void repair(const Part& part, Units& prices, Monitor& monitor) {
 
 std::vector<std::int32_t> lagrangian_prices(const Part& part, const LagrangianBoundOptions& options,
                                             Monitor& monitor) {
-  const Reals u = climb(part, options, monitor);
+  const bool few = part.columns.size() <= std::numeric_limits<std::uint16_t>::max();
+  const Reals u =
+      few ? climb<std::uint16_t>(part, options, monitor) : climb<std::int32_t>(part, options, monitor);
   Units prices(u.size());
   for (std::size_t c = 0; c < u.size(); ++c) {
     prices[c] = static_cast<std::int64_t>(std::min(u[c], 1.0F) * static_cast<float>(price_unit));

@@ -28,7 +28,7 @@ struct LagrangianBoundOptions {
 ///
 /// - The bound ends near the linear programming bound (3.5 without integrality), never above it but for the
 ///   rounding up. The plain rule (momentum 0) stalls far below.
-/// - Nothing is chosen, the matrix stays. Time O(entries) per iteration, memory 8 bytes per entry.
+/// - Nothing is chosen, the matrix stays. Time O(entries) per iteration, memory 12 bytes per entry.
 /// - Components are handled in parallel; the result does not depend on the number of threads.
 CoverState lagrangian_bound(const CoverState& state, const LagrangianBoundOptions& options = {},
                             Monitor& monitor = no_monitor());

@@ -46,7 +46,7 @@ struct LagrangianBound {
         .at_least(0.01)
         .at_most(0.99)
         .doc("how much shorter; near 1 more iterations are used");
-    d.memory(1 << 20, 2.0);
+    d.memory(1 << 20, 3.5);
   }
 
   void run(RunContext& context) {

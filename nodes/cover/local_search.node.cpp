@@ -58,7 +58,7 @@ struct LocalSearch {
         .unit("number")
         .at_least(0)
         .doc("other seeds find other covers of about the same size");
-    d.memory(1 << 20, 3.0);
+    d.memory(1 << 20, 5.0);
   }
 
   void run(RunContext& context) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/monitor.hpp"
@@ -31,6 +32,24 @@ class WeightingSearch {
  private:
   using Id = std::int32_t;
 
+  /// The lists of a matrix in another order, each filled up to a multiple of 4 with a number that is no row
+  /// or column: loops of four steps at once need no other for the rest. Values keep their order.
+  class FullLists {
+   public:
+    FullLists() = default;
+    FullLists(const Csr& lists, const std::vector<Id>& rank, const std::vector<Id>& rank_of_value,
+              Lookout& look);
+    std::span<const Id> full(std::size_t i) const {
+      return {values_.data() + begin_[i], values_.data() + begin_[i + 1]};
+    }
+    /// Without what fills it up.
+    std::size_t length(std::size_t i) const { return static_cast<std::size_t>(length_[i]); }
+
+   private:
+    std::vector<std::size_t> begin_;
+    std::vector<Id> length_, values_;
+  };
+
   /// The weight of the uncovered columns that a row covers. Weights of uncovered columns grow by one with
   /// every tick, so that a column changes the gains of its rows only when it is covered or uncovered: the
   /// gain is the sum of the columns' weights at tick 0 (negative ones are usual) and the tick times their
@@ -41,29 +60,55 @@ class WeightingSearch {
     explicit Gain(std::int32_t weight) : bits_((std::int64_t{weight} << 32) + 1) {}
     Gain() = default;
     Gain& operator+=(Gain g) { return bits_ += g.bits_, *this; }
-    Gain& operator-=(Gain g) { return bits_ -= g.bits_, *this; }
+    Gain operator-() const {
+      Gain minus;
+      minus.bits_ = -bits_;
+      return minus;
+    }
     std::int64_t at(std::int64_t tick) const { return (bits_ >> 32) + (bits_ & 0xffffffff) * tick; }
 
    private:
     std::int64_t bits_ = 0;  // the sum in the upper half, the number in the lower
   };
-  struct Keepers {
-    std::int32_t times = 0;  // how many rows of the cover cover a column
-    Id slots = 0;            // exclusive or of their slots: the slot itself while there is one
+  /// How many rows of the cover cover a column, and the exclusive or of their slots: the slot itself while
+  /// there is one.
+  class Keepers {
+   public:
+    explicit Keepers(std::int32_t times = 0) : bits_(times * one) {}
+    std::int32_t times() const { return static_cast<std::int32_t>(bits_ >> 32); }
+    Id slot() const { return static_cast<Id>(bits_ & 0xffffffff); }
+    void add(Id slot) { bits_ = (bits_ + one) ^ slot; }
+    void drop(Id slot) { bits_ = (bits_ - one) ^ slot; }
+
+   private:
+    static constexpr std::int64_t one = std::int64_t{1} << 32;
+    std::int64_t bits_;  // times in the upper half, slots in the lower: they change in one go
   };
-  struct Column {
-    std::int32_t weight = 1;  // while it is uncovered: at tick 0
+  struct State {
+    std::int32_t weight = 1;  // while the column is uncovered: at tick 0
     Id place = -1;            // in uncovered_
+  };
+  struct Change {
+    Id column, slot;
+  };
+  struct Least {
+    std::int64_t key;
+    Id slot;
   };
 
   void add(Id row, Lookout& look);
   void drop(Id row, Lookout& look);
-  void change_loss(Id slot, std::int32_t by);
-  void set_key(Id slot, std::int64_t key);
-  std::int64_t least_of_group(std::size_t group) const;
-  void find_least(std::size_t block, Id except);
+  void change_gains(Id column, Gain by);
+  void raise_key(Id slot, std::int64_t key);
+  void lower_key(Id slot, std::int64_t key);
+  /// The first of the least keys of a block.
+  Least least_of_block(std::size_t block) const;
+  void set_least(std::size_t block, Least least) {
+    least_key_[block] = least.key;
+    least_slot_[block] = least.slot;
+  }
   Id least_loss();
-  Id best_gain(Id column) const;
+  Id best_gain(Id column);
   void weigh_uncovered(Lookout& look);
   /// Begins again with tick 0, so that sums of weights stay small.
   void restart_ticks(Lookout& look);
@@ -71,18 +116,26 @@ class WeightingSearch {
   std::size_t random_below(std::size_t n);
 
   Part part_;
+  // Rows and columns are numbered by near_order() from here on.
+  FullLists rows_, columns_;
+  std::vector<Id> number_;  // of each row, in part_
   std::int64_t bound_;
   std::uint64_t random_;
   std::int32_t step_ = 0;
   std::int32_t tick_ = 0, last_tick_;
   std::int64_t weight_limit_, weight_sum_ = 0;
   Id last_added_ = -1, last_dropped_ = -1;
-  std::vector<Gain> gains_;          // of each row; valid while it is outside the cover
+  std::vector<Gain> gains_;  // of each row, and what fills up columns; valid while it is outside the cover
   std::vector<std::int32_t> moved_;  // step in which each row was added or dropped last
-  std::vector<Keepers>
-      keepers_;  // of each column; apart from what few steps need, so that more fit the cache
-  std::vector<Column> columns_;
+  std::vector<Keepers> keepers_;     // of each column, and what fills up rows
+  std::vector<State> states_;  // of each column; few steps need them, so that more keepers fit the cache
   std::vector<Id> uncovered_;
+
+  // What a row that is added or dropped changes is collected before it is changed, and gains before they are
+  // compared: loops without jumps that nobody can foresee.
+  std::vector<Change> first_, second_;
+  std::vector<std::size_t> stale_;  // blocks
+  std::vector<std::int64_t> ranks_;
 
   // The cover in slots; a slot's key is its row's loss and, in the low bits, when the row was moved last:
   // the least key is dropped. Blocks of slots know their least slot, groups in them their least key.
