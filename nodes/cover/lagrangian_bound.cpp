@@ -114,6 +114,7 @@ Reals climb(const Part& part, const LagrangianBoundOptions& options, Monitor& mo
   std::vector<std::uint8_t> loaded(rows);
   const auto upper = static_cast<double>(greedy_rows(part.rows, columns, monitor).size());
   const auto momentum = static_cast<float>(options.momentum);
+  constexpr float least_slope[] = {-std::numeric_limits<float>::infinity(), 0.0F};
   double best_bound = 0, factor = 1;
   std::int64_t waited = 0;
   for (std::int64_t t = 0; t < options.iterations; ++t) {
@@ -141,14 +142,16 @@ Reals climb(const Part& part, const LagrangianBoundOptions& options, Monitor& mo
     if (best_bound > upper - 1 + 1e-3) break;  // nothing is left to prove
     double norm = 0;
     for (std::size_t c = 0; c < columns; ++c) {
-      // A multiplier of 0 cannot fall.
-      const float s = u[c] <= 0 && slope[c] < 0 ? 0.0F : slope[c];
+      // A multiplier of 0 cannot fall. Looked up, as there is no telling which ones are 0.
+      const float s = std::max(slope[c], least_slope[u[c] <= 0 ? 1 : 0]);
       direction[c] = t == 0 ? s : momentum * direction[c] + (1 - momentum) * s;
       norm += static_cast<double>(direction[c]) * static_cast<double>(direction[c]);
     }
     if (norm == 0) break;
     const auto step = static_cast<float>(factor * (upper - best_bound) / norm);
-    for (std::size_t c = 0; c < columns; ++c) u[c] = std::clamp(u[c] + step * direction[c], 0.0F, 1.0F);
+    for (std::size_t c = 0; c < columns; ++c) {
+      u[c] = std::min(std::max(u[c] + step * direction[c], 0.0F), 1.0F);
+    }
   }
   best.pop_back();
   return best;

@@ -44,6 +44,9 @@ NearOrder near_order(const Csr& rows, const Csr& columns, Monitor& monitor) {
       if (order.row_rank[static_cast<std::size_t>(firsts[k])] < 0) grow_patch(firsts[k]);
     }
   }
+  for (std::int32_t& rank : order.column_rank) {
+    if (rank < 0) rank = next_column++;  // no row covers it
+  }
   return order;
 }
 

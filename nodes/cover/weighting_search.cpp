@@ -22,13 +22,13 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 // comparison.
 std::int64_t lesser(std::int64_t a, std::int64_t b) { return b < a ? b : a; }
 
-std::int64_t least_of_8(const std::int64_t* k) {
+inline std::int64_t least_of_8(const std::int64_t* k) {
   return lesser(lesser(lesser(k[0], k[1]), lesser(k[2], k[3])),
                 lesser(lesser(k[4], k[5]), lesser(k[6], k[7])));
 }
 
 /// The first of 8 keys that is `key`; one of them is.
-std::size_t first_of_8(const std::int64_t* k, std::int64_t key) {
+inline std::size_t first_of_8(const std::int64_t* k, std::int64_t key) {
   const std::size_t a = k[0] == key ? 0 : 1, b = k[2] == key ? 2 : 3, c = k[4] == key ? 4 : 5,
                     d = k[6] == key ? 6 : 7;
   const std::size_t low = k[a] == key ? a : b, high = k[c] == key ? c : d;
@@ -108,10 +108,13 @@ void WeightingSearch::lower_key(Id slot, std::int64_t key) {
   std::int64_t& least = group_key_[at(slot) / group];
   least = lesser(least, key);
   const std::size_t b = at(slot) / block;
-  if (key < least_key_[b]) {
-    least_key_[b] = key;
-    least_slot_[b] = slot;
+  if (key > least_key_[b]) return;
+  // Of equal keys the slot that was least before stays so, which need not be the first.
+  if (key == least_key_[b] && slot != least_slot_[b]) {
+    rest_is_known_ = false;
+    return;
   }
+  set_least(b, {key, slot});
 }
 
 WeightingSearch::Least WeightingSearch::least_of_block(std::size_t b) const {
@@ -174,6 +177,7 @@ void WeightingSearch::add(Id row, Lookout& look) {
   moved_[at(row)] = step_;
   slot_of_[at(row)] = slot;
   row_in_[at(slot)] = row;
+  rest_ = {least_key_[at(slot) / block], least_slot_[at(slot) / block]};
   lower_key(slot, loss * loss_unit + step_);
   ++size_;
   look(visited);
@@ -211,6 +215,7 @@ void WeightingSearch::drop(Id row, Lookout& look) {
     stale_[stale] = at(s) / block;
     stale += least_slot_[at(s) / block] == s;
   };
+  rest_is_known_ = least_slot_[at(slot) / block] == slot;  // as it is looked for, and add() takes that slot
   raise(slot, no_key);
   for (std::size_t i = 0; i < alone; ++i) {
     const Id s = second[i].slot;
@@ -236,19 +241,18 @@ WeightingSearch::Id WeightingSearch::least_loss() {
   const std::size_t b = tabu < 0 ? 0 : at(tabu) / block;
   const bool hidden = tabu >= 0 && least_slot_[b] == tabu;
   const Least of_tabu{least_key_[b], tabu};
-  if (hidden) {
+  if (hidden && rest_is_known_) {
+    set_least(b, rest_);
+  } else if (hidden) {
     raise_key(tabu, no_key);
     set_least(b, least_of_block(b));
+    keys_[at(tabu)] = group_key_[at(tabu) / group] = of_tabu.key;
   }
   std::int64_t least = no_key;
   for (const std::int64_t key : least_key_) least = lesser(least, key);
   const auto first = std::find(least_key_.begin(), least_key_.end(), least) - least_key_.begin();
   const Id row = least == no_key ? last_added_ : row_in_[at(least_slot_[static_cast<std::size_t>(first)])];
-  if (hidden) {
-    keys_[at(tabu)] = of_tabu.key;
-    group_key_[at(tabu) / group] = of_tabu.key;
-    set_least(b, of_tabu);
-  }
+  if (hidden) set_least(b, of_tabu);
   return row;
 }
 
@@ -287,6 +291,7 @@ void WeightingSearch::restart_ticks(Lookout& look) {
 
 void WeightingSearch::halve_weights(Lookout& look) {
   restart_ticks(look);
+  rest_is_known_ = false;
   weight_sum_ = 0;
   std::fill(gains_.begin(), gains_.end(), Gain());
   for (std::int64_t& key : keys_) {

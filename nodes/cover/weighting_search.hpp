@@ -146,6 +146,8 @@ class WeightingSearch {
   std::vector<Id> free_;                 // slots
   std::vector<std::int64_t> least_key_;  // of each block
   std::vector<Id> least_slot_;
+  Least rest_{};  // of the block of the row that was added last, without that row
+  bool rest_is_known_ = false;
   std::size_t size_ = 0;
   std::vector<Id> best_;
 };

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "cover/bandwidth_order.hpp"
+#include "cover/near_order.hpp"
 #include "cover_oracle.hpp"
 
 namespace ballflow::geometry {
@@ -144,6 +145,53 @@ TEST(bandwidth_order, brings_the_entries_of_a_shuffled_band_near_the_diagonal) {
   }
   EXPECT_GT(before, 100);
   EXPECT_LT(after, 12);
+}
+
+TEST(near_order, numbers_every_row_and_column_once_even_where_nothing_is_covered) {
+  std::mt19937 random(5);
+  for (int round = 0; round < 60; ++round) {
+    const CoverState state = state_of(random_rows(random, 1 + random() % 400, 300), 300);
+    const Csr rows = rows_of(state), columns = transpose(rows, state.cols());
+    const NearOrder order = near_order(rows, columns);
+    for (const auto* rank : {&order.row_rank, &order.column_rank}) {
+      const std::vector<std::int32_t> numbers = inverse(*rank);
+      const std::set<std::int32_t> all(numbers.begin(), numbers.end());
+      ASSERT_EQ(all.size(), rank->size());
+      for (std::size_t i = 0; i < rank->size(); ++i) {
+        ASSERT_EQ(numbers[static_cast<std::size_t>((*rank)[i])], static_cast<std::int32_t>(i));
+      }
+    }
+  }
+}
+
+TEST(near_order, brings_the_rows_of_a_shuffled_band_together) {
+  constexpr std::int32_t n = 5000, width = 7;
+  std::vector<std::int32_t> row_name(n), column_name(n);
+  std::iota(row_name.begin(), row_name.end(), 0);
+  std::iota(column_name.begin(), column_name.end(), 0);
+  std::mt19937 random(6);
+  std::shuffle(row_name.begin(), row_name.end(), random);
+  std::shuffle(column_name.begin(), column_name.end(), random);
+  Sets rows(n);
+  for (std::int32_t i = 0; i < n; ++i) {
+    auto& row = rows[static_cast<std::size_t>(row_name[static_cast<std::size_t>(i)])];
+    for (std::int32_t k = i; k < std::min(n, i + width); ++k)
+      row.push_back(column_name[static_cast<std::size_t>(k)]);
+    std::sort(row.begin(), row.end());
+  }
+  const CoverState state = state_of(rows, n);
+  const Csr matrix = rows_of(state);
+  const NearOrder order = near_order(matrix, transpose(matrix, n));
+  double extent = 0;
+  for (std::size_t i = 0; i < matrix.size(); ++i) {
+    std::int32_t least = n, most = 0;
+    for (const std::int32_t c : matrix[i]) {
+      least = std::min(least, order.column_rank[static_cast<std::size_t>(c)]);
+      most = std::max(most, order.column_rank[static_cast<std::size_t>(c)]);
+    }
+    extent += most - least;
+  }
+  EXPECT_LT(extent / n, 100.0);  // a third of n when shuffled
 }
 
 }  // namespace

@@ -121,5 +121,17 @@ TEST(lagrangian_bound, stops_when_cancelled) {
   EXPECT_THROW(lagrangian_bound(state, {}, monitor), Cancelled);
 }
 
+TEST(lagrangian_bound, takes_more_samples_than_16_bits_can_number) {
+  // A chain: balls of two neighbours, so that the optimum is half of the samples; all have the price 1/2.
+  for (const std::int32_t n : {65534, 65535, 65536, 70000}) {
+    Sets rows;
+    for (std::int32_t c = 0; c + 1 < n; ++c) rows.push_back({c, c + 1});
+    const CoverState bounded =
+        lagrangian_bound(state_of(rows, static_cast<std::size_t>(n)), {.iterations = 5});
+    EXPECT_EQ(bounded.lower_bound, (n + 1) / 2) << n;
+    EXPECT_EQ(test::certificate_error(state_of(rows, static_cast<std::size_t>(n)), bounded), "");
+  }
+}
+
 }  // namespace
 }  // namespace ballflow::geometry
