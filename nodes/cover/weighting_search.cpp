@@ -248,8 +248,12 @@ WeightingSearch::Id WeightingSearch::least_loss() {
     set_least(b, least_of_block(b));
     keys_[at(tabu)] = group_key_[at(tabu) / group] = of_tabu.key;
   }
-  std::int64_t least = no_key;
-  for (const std::int64_t key : least_key_) least = lesser(least, key);
+  std::int64_t least = no_key, other = no_key;  // side by side: neither waits for the other
+  for (std::size_t i = 0; i + 1 < least_key_.size(); i += 2) {
+    least = lesser(least, least_key_[i]);
+    other = lesser(other, least_key_[i + 1]);
+  }
+  least = lesser(lesser(least, other), least_key_.back());
   const auto first = std::find(least_key_.begin(), least_key_.end(), least) - least_key_.begin();
   const Id row = least == no_key ? last_added_ : row_in_[at(least_slot_[static_cast<std::size_t>(first)])];
   if (hidden) set_least(b, of_tabu);

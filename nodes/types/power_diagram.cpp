@@ -6,6 +6,23 @@
 namespace ballflow::geometry {
 namespace {
 
+/// What is true of nearly every cell, without words: they take longer than the check.
+bool is_sound_tetrahedron(const PowerDiagram& d, std::size_t c) {
+  const auto balls = static_cast<std::int32_t>(d.centers.size()), cells = static_cast<std::int32_t>(d.size());
+  const auto& cell = d.cells[c];
+  bool sound = true;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::int32_t n = d.neighbors[c][k];
+    if (n < 0 || n >= cells) return false;
+    const auto& back = d.neighbors[static_cast<std::size_t>(n)];
+    const auto number = static_cast<std::int32_t>(c);
+    sound &= (back[0] == number) | (back[1] == number) | (back[2] == number) | (back[3] == number);
+    sound &= (cell[k] > PowerDiagram::infinite) & (cell[k] < balls);
+  }
+  sound &= (cell[0] != cell[1]) & (cell[0] != cell[2]) & (cell[0] != cell[3]);
+  return sound & (cell[1] != cell[2]) & (cell[1] != cell[3]) & (cell[2] != cell[3]);
+}
+
 std::string broken_cell(const PowerDiagram& d, std::size_t c) {
   const auto corners = static_cast<std::size_t>(d.dimension) + 1;
   const auto& cell = d.cells[c];
@@ -54,6 +71,7 @@ std::string broken_invariant(const PowerDiagram& d) {
   }
   for (std::size_t c = 0; c < d.size(); ++c) {
     if (d.dimension < 1) break;
+    if (d.dimension == 3 && is_sound_tetrahedron(d, c)) continue;
     if (std::string broken = broken_cell(d, c); !broken.empty()) return broken;
   }
   return {};
