@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/memory.hpp"
+#include "minkowski/hierarchical_sums.hpp"
 #include "minkowski/power_triangulation.hpp"
 #include "minkowski/sum_lists.hpp"
 #include "minkowski/sums.hpp"
@@ -65,6 +66,9 @@ MinkowskiSum minkowski_sum(const Balls& a, const Balls& b, const MinkowskiSumOpt
         },
         work);
     result.report.survivors = static_cast<std::int64_t>(triangulation.vertices());
+  } else if (options.algorithm == MinkowskiAlgorithm::hierarchical) {
+    result.report.survivors =
+        HierarchicalSums(a, b, triangulation, {32, false, bytes_per_pair, bytes_per_vertex}).run(monitor);
   } else {
     const bool all = options.algorithm == MinkowskiAlgorithm::time;
     std::vector<Ball> left =

@@ -62,7 +62,10 @@ struct MinkowskiSum {
           {MinkowskiAlgorithm::time, "time", "triangulates all pairs at once: algo_time of the thesis"},
           {MinkowskiAlgorithm::memory, "memory",
            "inserts a pair only when it contributes so far, and tests what is left again: algo_mem of the "
-           "thesis; the least memory, and some ten times slower"}})
+           "thesis; the least memory, and some ten times slower"},
+          {MinkowskiAlgorithm::hierarchical, "hierarchical",
+           "passes by pairs below nodes of an octree whose balls around all contribute nothing (thesis, "
+           "5.3.2)"}})
         .doc("how the sums are found; the balls are the same");
     d.choice("keep", &MinkowskiSum::options, &MinkowskiSumOptions::keep,
              {{MinkowskiKeep::contributing, "contributing", "all sums that contribute"}})

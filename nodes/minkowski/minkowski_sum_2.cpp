@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "base/memory.hpp"
-#include "base/space_order.hpp"
-#include "minkowski/disc_tree.hpp"
+#include "minkowski/hierarchical_sums.hpp"
 #include "minkowski/plane_sums.hpp"
 #include "minkowski/sum_lists.hpp"
 #include "power/regular_triangulation_2.hpp"
@@ -66,102 +65,6 @@ std::optional<std::array<Ball, 3>> corners(const Balls& a, const Balls& b) {
   return std::nullopt;
 }
 
-/// The tree is over the larger set. First come the sums with the largest disc of every leaf, together, which
-/// hide most others. Then every disc of the smaller set goes down the tree, level by level, as long as its
-/// sum with the disc around a node may contribute: if that contributes nothing, neither do the sums below,
-/// since in a disc inside another one the power to the other is not larger. The questions of a level are
-/// asked in the order of a curve through the plane, so that the place of one is near that of the one before.
-class Hierarchical {
- public:
-  Hierarchical(const Balls& a, const Balls& b, PlaneSums& triangulation)
-      : small_(a.size() < b.size() ? a : b),
-        tree_(disc_tree(a.size() < b.size() ? b : a, leaf_size)),
-        triangulation_(triangulation) {}
-
-  /// Inserts what may contribute; returns how many pairs were looked at.
-  std::int64_t run(Monitor& monitor) {
-    const MemoryLimit memory(monitor);
-    std::int64_t leaves = 0;
-    for (const DiscTreeNode& node : tree_) leaves += node.children < 0;
-    const std::int64_t first_sums = leaves * static_cast<std::int64_t>(small_.size());
-    require_memory(first_sums, bytes_per_pair, memory);
-    std::vector<Ball> sums;
-    sums.reserve(static_cast<std::size_t>(first_sums));
-    for (std::size_t i = 0; i < small_.size(); ++i) {
-      for (const DiscTreeNode& node : tree_) {
-        if (node.children < 0) sums.push_back(ball_of(small_, i) + node.largest);
-      }
-    }
-    PartMonitor part(monitor, 0, 0.4);
-    triangulation_.insert(std::move(sums), part);
-    return first_sums + insert_below(memory, monitor);
-  }
-
- private:
-  // Of 4, 8, 16 and 24 the fastest for sums of 274 000 pairs.
-  static constexpr std::size_t leaf_size = 16;
-  // Nodes with more discs are entered without a question: hardly any of them is passed by.
-  static constexpr std::int64_t asked_size = 64;
-
-  struct Question {
-    Ball bound;  // around the sums of a disc of the smaller set and those below a node
-    std::int32_t disc, node;
-  };
-
-  Question question(std::int32_t disc, std::int32_t node) const {
-    Ball one = ball_of(small_, static_cast<std::size_t>(disc));
-    // By more than what rounding a sum can push it out.
-    one.radius += 0x1p-48 * (one.radius + std::abs(one.center.x) + std::abs(one.center.y));
-    return {one + tree_[static_cast<std::size_t>(node)].bound, disc, node};
-  }
-
-  /// Inserts the sums in leaves that may contribute, but those with the largest disc of each; how many.
-  std::int64_t insert_below(const MemoryLimit& memory, Monitor& monitor) {
-    std::int64_t inserted = 0;
-    std::vector<Question> level, next;
-    for (std::size_t i = 0; i < small_.size(); ++i)
-      level.push_back(question(static_cast<std::int32_t>(i), 0));
-    Lookout look(monitor);
-    while (!level.empty()) {
-      next.clear();
-      for (const std::uint32_t k : along_curve(level)) {
-        look(512);
-        const Question& q = level[k];
-        const DiscTreeNode& node = tree_[static_cast<std::size_t>(q.node)];
-        if (node.count <= asked_size && !triangulation_.may_contribute(q.bound)) continue;
-        const Ball disc = ball_of(small_, static_cast<std::size_t>(q.disc));
-        for (const Ball& other : node.discs) triangulation_.insert(disc + other);
-        inserted += static_cast<std::int64_t>(node.discs.size());
-        if (node.children < 0) continue;
-        for (std::int32_t child = node.children; child != node.next;
-             child = tree_[static_cast<std::size_t>(child)].next)
-          next.push_back(question(q.disc, child));
-      }
-      std::swap(level, next);
-      require_memory(static_cast<std::int64_t>(triangulation_.vertices()), bytes_per_vertex, memory);
-    }
-    return inserted;
-  }
-
-  static std::vector<std::uint32_t> along_curve(const std::vector<Question>& level) {
-    Box box;
-    for (const Question& q : level) box.add(q.bound.center);
-    const SpaceOrder place(box);
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> order(level.size());
-    for (std::size_t i = 0; i < level.size(); ++i)
-      order[i] = {place(level[i].bound.center), static_cast<std::uint32_t>(i)};
-    std::sort(order.begin(), order.end());
-    std::vector<std::uint32_t> result;
-    result.reserve(order.size());
-    for (const auto& [key, i] : order) result.push_back(i);
-    return result;
-  }
-
-  const Balls& small_;
-  const std::vector<DiscTreeNode> tree_;
-  PlaneSums& triangulation_;
-};
-
 }  // namespace
 
 MinkowskiSum2 minkowski_sum_2(const Balls& a, const Balls& b, const MinkowskiSum2Options& options,
@@ -186,7 +89,8 @@ MinkowskiSum2 minkowski_sum_2(const Balls& a, const Balls& b, const MinkowskiSum
   }
   PlaneSums triangulation((*begin)[0], (*begin)[1], (*begin)[2]);
   if (options.algorithm == MinkowskiAlgorithm2::hierarchical) {
-    result.report.survivors = Hierarchical(a, b, triangulation).run(monitor);
+    result.report.survivors =
+        HierarchicalSums(a, b, triangulation, {16, true, bytes_per_pair, bytes_per_vertex}).run(monitor);
     result.avoided = result.report.pairs - result.report.survivors;
   } else {
     const bool all = options.algorithm == MinkowskiAlgorithm2::quadratic;

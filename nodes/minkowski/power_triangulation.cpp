@@ -239,6 +239,40 @@ void PowerTriangulation::insert_if_contributing(const Ball& ball) {
   my.insert(point, ball.radius, place);
 }
 
+void PowerTriangulation::insert(const Ball& ball) {
+  const WeightedPoint point = weighted(site_of(ball));
+  implementation_->insert(point, ball.radius, implementation_->locate(point));
+}
+
+bool PowerTriangulation::may_contribute(const Ball& ball) {
+  Implementation& my = *implementation_;
+  if (my.triangulation.dimension() < 3) return true;
+  const WeightedPoint point = weighted(site_of(ball));
+  const auto place = my.locate(point);
+  my.hint = place.cell;
+  // Most are quickly seen: one ball of those around contains it, or its center is in its own cell as far as
+  // these can tell, which only costs a look at what is in it.
+  bool center_free = true;
+  for (int i = 0; i < 4; ++i) {
+    const auto vertex = place.cell->vertex(i);
+    if (my.triangulation.is_infinite(vertex)) return true;
+    const double d = distance(site_of(vertex->point()).center, ball.center), r = vertex->info().radius;
+    const double room = (r - ball.radius) - 0x1p-40 * r;
+    if (room > 0 && d < room) return false;
+    center_free = center_free && d * d - r * r > -ball.radius * ball.radius;
+  }
+  if (center_free) return true;
+  my.border.clear();
+  if (place.type != Triangulation::VERTEX)
+    my.triangulation.vertices_on_conflict_zone_boundary(point, place.cell, std::back_inserter(my.border));
+  if (my.border.empty()) return place.type == Triangulation::VERTEX;
+  my.link.clear();
+  for (const auto vertex : my.border) {
+    if (!my.triangulation.is_infinite(vertex)) my.link.push_back(site_of(vertex->point()));
+  }
+  return my.test.contributes(site_of(ball), my.link);
+}
+
 Contributing PowerTriangulation::contributing(Monitor& monitor) {
   const Tables tables(implementation_->triangulation, monitor);
   implementation_->triangulation.clear();

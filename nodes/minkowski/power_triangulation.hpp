@@ -32,6 +32,13 @@ class PowerTriangulation {
   /// Inserts the ball when it contributes among those that are vertices. Quick when the last one was near.
   void insert_if_contributing(const Ball& ball);
 
+  /// Inserts the ball. Quick when the last one was near.
+  void insert(const Ball& ball);
+
+  /// False when the ball certainly contributes nothing to those inserted so far, and nothing that lies in it
+  /// does. It is not inserted: its cell is asked for among the neighbours that it would have.
+  bool may_contribute(const Ball& ball);
+
   std::size_t vertices() const;
 
   /// The balls that contribute among all inserted. Ends the triangulation.

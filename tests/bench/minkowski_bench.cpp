@@ -223,7 +223,8 @@ void report(const Case& size, int repetitions) {
   };
   for (const auto& [name, value] :
        {Algorithm{"filtered", MinkowskiAlgorithm::filtered}, Algorithm{"time", MinkowskiAlgorithm::time},
-        Algorithm{"memory", MinkowskiAlgorithm::memory}}) {
+        Algorithm{"memory", MinkowskiAlgorithm::memory},
+        Algorithm{"hierarchical", MinkowskiAlgorithm::hierarchical}}) {
     if (value == MinkowskiAlgorithm::memory && a.size() * b.size() > 1'000'000) continue;  // minutes
     const Result r = best_of(value == MinkowskiAlgorithm::memory ? 1 : repetitions,
                              [&, algorithm = value] { return sum(a, b, algorithm); });

@@ -12,7 +12,8 @@ namespace ballflow::geometry {
 
 using Numbers = std::vector<std::array<double, 4>>;  // x, y, z, r
 inline constexpr MinkowskiAlgorithm algorithms[] = {MinkowskiAlgorithm::filtered, MinkowskiAlgorithm::time,
-                                                    MinkowskiAlgorithm::memory};
+                                                    MinkowskiAlgorithm::memory,
+                                                    MinkowskiAlgorithm::hierarchical};
 
 inline Balls balls_of(const Numbers& numbers) {
   std::vector<Vec3> centers;

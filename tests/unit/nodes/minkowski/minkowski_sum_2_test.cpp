@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "minkowski/disc_tree.hpp"
+#include "minkowski/ball_tree.hpp"
 #include "minkowski_cases.hpp"
 
 namespace ballflow::geometry {
@@ -136,20 +136,20 @@ TEST(minkowski_sum_2, refuses_balls_in_space) {
   }
 }
 
-TEST(disc_tree, has_every_disc_once_in_bounds_that_contain_it) {
+TEST(ball_tree, has_every_disc_once_in_bounds_that_contain_it) {
   RandomBalls random(14);
   for (int round = 0; round < 200; ++round) {
     const Balls discs = balls_of(flat(random(60)));
-    const std::vector<DiscTreeNode> tree = disc_tree(discs, 4);
+    const std::vector<BallTreeNode> tree = ball_tree(discs, 4);
     std::int64_t leaves = 0;
     for (std::size_t i = 0; i < tree.size(); ++i) {
-      const DiscTreeNode& node = tree[i];
+      const BallTreeNode& node = tree[i];
       std::vector<Ball> below;
       for (auto k = static_cast<std::int32_t>(i); k < node.next; ++k) {
-        const DiscTreeNode& inner = tree[static_cast<std::size_t>(k)];
+        const BallTreeNode& inner = tree[static_cast<std::size_t>(k)];
         if (inner.children >= 0) continue;
         below.push_back(inner.largest);
-        below.insert(below.end(), inner.discs.begin(), inner.discs.end());
+        below.insert(below.end(), inner.balls.begin(), inner.balls.end());
       }
       ASSERT_EQ(node.count, static_cast<std::int64_t>(below.size()));
       for (const Ball& disc : below) {

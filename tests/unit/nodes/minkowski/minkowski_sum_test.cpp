@@ -150,6 +150,25 @@ TEST(minkowski_sum, has_the_points_of_the_union_of_all_sums) {
   }
 }
 
+TEST(minkowski_sum, hierarchical_passes_by_pairs_and_nothing_else) {
+  RandomBalls random(15);
+  for (int round = 0; round < 4; ++round) {
+    Numbers a(40), b(300);
+    for (Numbers* set : {&a, &b}) {
+      for (auto& ball : *set) {
+        ball = {random.uniform(0, 4), random.uniform(0, 4), random.uniform(0, 4), random.uniform(0, 2)};
+        if (round % 2 == 0) {
+          for (double& x : ball) x = std::round(4 * x) / 4;  // ties
+        }
+      }
+    }
+    EXPECT_EQ(sum_of(a, b), sum_of(b, a));
+    const MinkowskiReport report =
+        minkowski_sum(balls_of(a), balls_of(b), {.algorithm = MinkowskiAlgorithm::hierarchical}).report;
+    EXPECT_LT(report.survivors, report.pairs);
+  }
+}
+
 TEST(minkowski_sum, algorithms_agree_on_larger_sets) {
   RandomBalls random(5);
   for (int round = 0; round < 6; ++round) {
