@@ -1,6 +1,5 @@
 #include "cover/lagrangian_bound.hpp"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -8,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -37,7 +37,6 @@ class RowSums {
       const auto end = order.begin() + static_cast<std::ptrdiff_t>(std::min(first + window, order.size()));
       std::stable_sort(begin, end, [&](std::int32_t x, std::int32_t y) { return fours(x) < fours(y); });
     }
-    begin_.push_back(0);
     for (const std::int32_t i : order) {
       const auto row = rows[static_cast<std::size_t>(i)];
       look(row.size());
@@ -46,50 +45,63 @@ class RowSums {
       }
       entries_.resize(entries_.size() + (3 - row.size() % 4), static_cast<Number>(columns));
       rows_.push_back({i, static_cast<std::int32_t>(fours(i))});
-      begin_.push_back(entries_.size());
     }
   }
 
   /// `values` has one element more than there are columns, a zero.
-  void operator()(const Reals& values, Reals& sums, Monitor& monitor) const {
-    const std::size_t windows = (rows_.size() + window - 1) / window;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, windows, windows_of_task),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                        Lookout look(monitor);
-                        const std::size_t first = range.begin() * window;
-                        const std::size_t last = std::min(range.end() * window, rows_.size());
-                        const Number* at = entries_.data() + begin_[first];
-                        const float* const u = values.data();
-                        for (std::size_t k = first; k < last; ++k) {
-                          const Row& row = rows_[k];
-                          float a = 0, b = 0, c = 0, d = 0;
-                          for (std::int32_t four = 0; four < row.fours; ++four, at += 4) {
-                            a += u[at[0]];
-                            b += u[at[1]];
-                            c += u[at[2]];
-                            d += u[at[3]];
-                          }
-                          a += u[at[0]];
-                          a += u[at[1]];
-                          a += u[at[2]];
-                          at += 3;
-                          sums[static_cast<std::size_t>(row.number)] = (a + b) + (c + d);
-                          look(static_cast<std::size_t>(row.fours) * 4 + 3);
-                        }
-                      });
+  void operator()(const Reals& values, Reals& sums, Lookout& look) const {
+    const Number* at = entries_.data();
+    const float* const u = values.data();
+    for (const Row& row : rows_) {
+      float a = 0, b = 0, c = 0, d = 0;
+      for (std::int32_t four = 0; four < row.fours; ++four, at += 4) {
+        a += u[at[0]];
+        b += u[at[1]];
+        c += u[at[2]];
+        d += u[at[3]];
+      }
+      a += u[at[0]];
+      a += u[at[1]];
+      a += u[at[2]];
+      at += 3;
+      sums[static_cast<std::size_t>(row.number)] = (a + b) + (c + d);
+      look(static_cast<std::size_t>(row.fours) * 4 + 3);
+    }
   }
 
  private:
   static constexpr std::size_t window = 512;  // rows that are sorted by their lengths
-  static constexpr std::size_t windows_of_task = 8;
 
   struct Row {
     std::int32_t number, fours;
   };
   std::vector<Row> rows_;
   std::vector<Number> entries_;  // one row after another: fours, then three of the rest
-  std::vector<std::size_t> begin_;
 };
+
+double sum(std::span<const float> values) {
+  double result = 0;
+  for (const float value : values) result += static_cast<double>(value);
+  return result;
+}
+
+/// Takes what loads have above 1 from `bound`; returns the rows whose load is above 1 and was not, or the
+/// reverse, and notes that in `loaded`.
+std::span<const std::int32_t> take_excess(const Reals& loads, double& bound,
+                                          std::vector<std::uint8_t>& loaded,
+                                          std::vector<std::int32_t>& changed) {
+  double rest = bound;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    const std::uint8_t over = loads[i] > 1 ? 1 : 0;
+    rest -= static_cast<double>(std::max(loads[i], 1.0F)) - 1;
+    changed[count] = static_cast<std::int32_t>(i);
+    count += over != loaded[i] ? 1 : 0;
+    loaded[i] = over;
+  }
+  bound = rest;
+  return {changed.data(), count};
+}
 
 /// The multipliers of the best bound L(u) that was met. `Number` holds the number of columns.
 template <class Number>
@@ -112,6 +124,7 @@ Reals climb(const Part& part, const LagrangianBoundOptions& options, Monitor& mo
   // order in which they are added does not matter.
   Reals slope(columns, 1.0F);
   std::vector<std::uint8_t> loaded(rows);
+  std::vector<std::int32_t> changed(rows + 1);
   const auto upper = static_cast<double>(greedy_rows(part.rows, columns, monitor).size());
   const auto momentum = static_cast<float>(options.momentum);
   constexpr float least_slope[] = {-std::numeric_limits<float>::infinity(), 0.0F};
@@ -119,16 +132,13 @@ Reals climb(const Part& part, const LagrangianBoundOptions& options, Monitor& mo
   std::int64_t waited = 0;
   for (std::int64_t t = 0; t < options.iterations; ++t) {
     if (monitor.cancelled()) throw Cancelled();
-    double bound = 0;
-    for (std::size_t c = 0; c < columns; ++c) bound += static_cast<double>(u[c]);
-    row_sums(u, loads, monitor);
-    for (std::size_t i = 0; i < rows; ++i) {
-      const bool over = loads[i] > 1;
-      bound -= over ? static_cast<double>(loads[i]) - 1 : 0.0;
-      if (over == (loaded[i] != 0)) continue;
-      loaded[i] = over ? 1 : 0;
+    double bound = sum({u.data(), columns});
+    row_sums(u, loads, look);
+    for (const std::int32_t row : take_excess(loads, bound, loaded, changed)) {
+      const auto i = static_cast<std::size_t>(row);
       look(part.rows.degree(i));
-      for (const std::int32_t c : part.rows[i]) slope[static_cast<std::size_t>(c)] += over ? -1.0F : 1.0F;
+      const float by = loaded[i] != 0 ? -1.0F : 1.0F;
+      for (const std::int32_t c : part.rows[i]) slope[static_cast<std::size_t>(c)] += by;
     }
     if (bound > best_bound * (1 + 1e-7)) {
       best_bound = bound;
