@@ -133,7 +133,7 @@ int rounds_of(const EncloseBallsOptions& options) {
     case EncloseEffort::normal:
       return options.balls > many ? 1 : 2;
     case EncloseEffort::high:
-      return 8;
+      return options.balls > many ? 5 : 8;
   }
   return 0;
 }

@@ -30,6 +30,9 @@ struct Lengths {
   double delta, floor, lowest, wall_fraction;
 };
 
+/// A sample of no inner ball may be so far from all of them, as a share of delta.
+constexpr double end_share = 0.7;
+
 class Refinery {
  public:
   Refinery(const TriangleMesh& mesh, const WindingNumber& winding, const RefineOptions& options,
@@ -59,7 +62,9 @@ class Refinery {
   void refine_balls();
   /// Step 3, and what comes out of it.
   InnerCells refine_cells(const std::optional<Betti>& wanted);
-  /// Step 4: inserts points where balls meet that should not; false where there are none.
+  /// Step 4: lowers the floor around samples that are far from all inner balls; false where there are none.
+  bool reach_narrow_ends(const InnerCells& cells);
+  /// Step 5: inserts points where balls meet that should not; false where there are none.
   bool separate_balls();
 
   std::array<std::int64_t, 3> betti_of_balls() {
@@ -287,6 +292,27 @@ Refinery::InnerBalls Refinery::inner_balls() {
   return result;
 }
 
+bool Refinery::reach_narrow_ends(const InnerCells& cells) {
+  if (cells.uncovered.empty() || full()) return false;
+  const Balls balls = inner_balls().balls;
+  const std::vector<Vertex>& vertices = triangulation_.vertices();
+  bool lowered = false;
+  for (const std::int32_t s : cells.uncovered) {
+    const Vec3 end = position(vertices[at(s)]);
+    double away = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < balls.size(); ++i)
+      away = std::min(away, distance(end, balls.centers[i]) - balls.radii[i]);
+    if (away <= end_share * lengths_.delta || away == std::numeric_limits<double>::infinity()) continue;
+    for (const Vertex& vertex : vertices) {
+      double& floor = vertex->info().floor;
+      if (floor <= lengths_.lowest || distance(position(vertex), end) > away) continue;
+      floor = std::max(floor / 3, lengths_.lowest);
+      lowered = true;
+    }
+  }
+  return lowered;
+}
+
 bool Refinery::separate_balls() {
   const InnerBalls inner = inner_balls();
   std::vector<Cell> meeting;
@@ -360,13 +386,18 @@ TriangleMesh boundary_of_solid(const TriangleMesh& mesh, const SurfaceChain& cha
 /// % of the box: the lowest floor of the first try.
 constexpr double first_lowest_floor = 0.0005;
 
-/// Steps 1 to 4 with one lowest floor.
+/// Steps 1 to 5 with one lowest floor.
 Refined refine_once(const TriangleMesh& boundary, const WindingNumber& winding, const PointSet& points,
                     const std::optional<Betti>& wanted, const RefineOptions& options, Monitor& monitor) {
   Refinery refinery(boundary, winding, options, monitor);
   refinery.start(boundary, options.keep_points ? points : PointSet{}, options);
   refinery.refine_balls();
   InnerCells cells = refinery.refine_cells(wanted);
+  constexpr int most_ends = 6;  // 1 / 729 of the floor
+  for (int i = 0; i < most_ends && refinery.reach_narrow_ends(cells); ++i) {
+    refinery.refine_balls();
+    cells = refinery.refine_cells(wanted);
+  }
   std::array<std::int64_t, 3> balls = refinery.betti_of_balls();
   constexpr int most_separations = 4;
   for (int i = 0; i < most_separations; ++i) {

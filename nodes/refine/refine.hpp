@@ -51,15 +51,17 @@ struct Refined {
 ///    at least lowest_floor, so this ends.
 /// 3. While the boundary of T is no surface, or has other Betti numbers than the solid: lower the floor at
 ///    samples where that shows, add points where dual edges of their facets cross the surface, go to 2.
-/// 4. While the union of the balls has other Betti numbers than it should (caps of balls can meet outside of
+/// 4. While a sample of no inner ball is farther than 0.7 delta from all of them, as the tip of a spike is: lower
+///    the floor at the samples so far around it, go to 2. At most six times.
+/// 5. While the union of the balls has other Betti numbers than it should (caps of balls can meet outside of
 ///    T): add the points next to the balls that meet without a common sample, go to 2. At most four times.
-///    Where nobody knows the topology of the solid 3 is done three times at most, and 4 only when T has one.
+///    Where nobody knows the topology of the solid 3 is done three times at most, and 5 only when T has one.
 ///
 /// The union of all inner balls contains T: the power diagram of all Delaunay balls is the Delaunay
 /// triangulation itself. So it has no holes inside however thin a wall is, as unions of polar balls have.
 /// All of it is done with 0.0005 % as the lowest floor, and anew with lowest_floor where that did not
 /// succeed: samples far closer together than a shape needs cost balls, and bring other balls together. There
-/// is no proof that 3 and 4 succeed; the report says whether they have.
+/// is no proof that 3 and 5 succeed; the report says whether they have.
 ///
 /// - `wanted`: Betti numbers of the solid, or nothing where they are unknown (self-intersections); then those
 ///   of T are what the union is compared with
