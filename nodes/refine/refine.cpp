@@ -13,6 +13,8 @@
 #include "power/union_betti.hpp"
 #include "refine/foreign_simplices.hpp"
 #include "refine/inner_cells.hpp"
+#include "refine/mirror_images.hpp"
+#include "refine/narrow_ends.hpp"
 #include "refine/refined_triangulation.hpp"
 #include "refine/start_points.hpp"
 #include "search/shells.hpp"
@@ -62,7 +64,7 @@ class Refinery {
   void refine_balls();
   /// Step 3, and what comes out of it.
   InnerCells refine_cells(const std::optional<Betti>& wanted);
-  /// Step 4: lowers the floor around samples that are far from all inner balls; false where there are none.
+  /// Step 4: samples ends that are far from all inner balls; false where there are none.
   bool reach_narrow_ends(const InnerCells& cells);
   /// Step 5: inserts points where balls meet that should not; false where there are none.
   bool separate_balls();
@@ -97,7 +99,6 @@ class Refinery {
     return cell.depth <= lengths_.delta && cell.depth > lengths_.wall_fraction * cell.gap &&
            cell.depth <= floor && cell.depth > lengths_.lowest;
   }
-  std::vector<SurfacePoint> mirror_images(Cell cell) const;
   /// Inserts the points of proposals whose cells are still there, in their order; the cells that are new.
   std::vector<Cell> insert_all(std::vector<Proposal>& proposals);
   /// Lowers the floor at samples and adds crossings of dual edges around them.
@@ -118,39 +119,9 @@ Refinery::Proposal Refinery::propose(Cell cell) const {
   Proposal proposal{cell, {}, {}};
   for (int k = 0; k < 4; ++k) proposal.corners[static_cast<std::size_t>(k)] = cell->vertex(k);
   const RefinedCell& info = cell->info();
-  if (info.depth <= lengths_.delta) proposal.points = mirror_images(cell);
+  if (info.depth <= lengths_.delta) proposal.points = mirror_images(triangulation_, cell, lengths_.lowest);
   if (proposal.points.empty()) proposal.points.push_back({info.nearest, info.triangle, 0});
   return proposal;
-}
-
-/// Where a wall stands between a sample and the centre: the point of the wall that is opposite to the sample.
-/// Spacing alone separates the sides of a thin wall only where samples are as close as the wall is thin;
-/// mirrored samples do so at once.
-std::vector<SurfacePoint> Refinery::mirror_images(Cell cell) const {
-  const RefinedCell& info = cell->info();
-  const double skin = 1e-7 * triangulation_.size();
-  std::vector<SurfacePoint> images;
-  for (int k = 0; k < 4; ++k) {
-    const RefinedSample& sample = cell->vertex(k)->info();
-    if (sample.number < 0) continue;
-    const Vec3 p = position(cell->vertex(k));
-    const Vec3 to_center = info.center - p;
-    const double length_to_center = length(to_center);
-    if (!(length_to_center > skin)) continue;
-    const double start = skin / length_to_center;
-    if (!surface_.first_hit(p, to_center, start, 1)) continue;  // the sample sees the centre
-    Vec3 normal = sample.triangle < 0 ? Vec3{} : surface_.normal(sample.triangle);
-    if (dot(normal, to_center) < 0) normal = -normal;
-    auto image = surface_.first_hit(p, normal, skin, length_to_center);
-    if (!image || normal == Vec3{}) image = surface_.first_hit(p, to_center, start, 1);
-    // The ball is empty: the image is at least so far from all samples.
-    const double room = info.radius - distance(image->point, info.center);
-    const bool apart = std::all_of(images.begin(), images.end(), [&](const SurfacePoint& other) {
-      return distance(other.point, image->point) >= lengths_.lowest;
-    });
-    if (room >= lengths_.lowest && apart) images.push_back(*image);
-  }
-  return images;
 }
 
 std::vector<Cell> Refinery::insert_all(std::vector<Proposal>& proposals) {
@@ -295,22 +266,15 @@ Refinery::InnerBalls Refinery::inner_balls() {
 bool Refinery::reach_narrow_ends(const InnerCells& cells) {
   if (cells.uncovered.empty() || full()) return false;
   const Balls balls = inner_balls().balls;
-  const std::vector<Vertex>& vertices = triangulation_.vertices();
-  bool lowered = false;
-  for (const std::int32_t s : cells.uncovered) {
-    const Vec3 end = position(vertices[at(s)]);
-    double away = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < balls.size(); ++i)
-      away = std::min(away, distance(end, balls.centers[i]) - balls.radii[i]);
-    if (away <= end_share * lengths_.delta || away == std::numeric_limits<double>::infinity()) continue;
-    for (const Vertex& vertex : vertices) {
-      double& floor = vertex->info().floor;
-      if (floor <= lengths_.lowest || distance(position(vertex), end) > away) continue;
-      floor = std::max(floor / 3, lengths_.lowest);
-      lowered = true;
-    }
-  }
-  return lowered;
+  std::vector<SurfacePoint> rings;
+  for (const std::int32_t s : cells.uncovered)
+    add_rings(position(triangulation_.vertices()[at(s)]), balls, end_share * lengths_.delta, lengths_.lowest, surface_,
+              rings);
+  bool inserted = false;
+  for (const SurfacePoint& point : rings) inserted = insert(point, lengths_.lowest, Cell()) || inserted;
+  ++rounds_;
+  triangulation_.evaluate(monitor_);
+  return inserted;
 }
 
 bool Refinery::separate_balls() {
@@ -386,14 +350,17 @@ TriangleMesh boundary_of_solid(const TriangleMesh& mesh, const SurfaceChain& cha
 /// % of the box: the lowest floor of the first try.
 constexpr double first_lowest_floor = 0.0005;
 
-/// Steps 1 to 5 with one lowest floor.
+enum class Ends : std::uint8_t { reach, leave };
+
+/// Steps 1 to 5 with one lowest floor; without step 4 where ends are left.
 Refined refine_once(const TriangleMesh& boundary, const WindingNumber& winding, const PointSet& points,
-                    const std::optional<Betti>& wanted, const RefineOptions& options, Monitor& monitor) {
+                    const std::optional<Betti>& wanted, const RefineOptions& options, Ends ends,
+                    Monitor& monitor) {
   Refinery refinery(boundary, winding, options, monitor);
   refinery.start(boundary, options.keep_points ? points : PointSet{}, options);
   refinery.refine_balls();
   InnerCells cells = refinery.refine_cells(wanted);
-  constexpr int most_ends = 6;  // 1 / 729 of the floor
+  const int most_ends = ends == Ends::reach ? 3 : 0;
   for (int i = 0; i < most_ends && refinery.reach_narrow_ends(cells); ++i) {
     refinery.refine_balls();
     cells = refinery.refine_cells(wanted);
@@ -457,12 +424,17 @@ Refined refine(const TriangleMesh& mesh, const PointSet& points, const std::opti
                      "close the mesh, or take the points as they are (sampling: vertices)");
   }
   const TriangleMesh boundary = boundary_of_solid(mesh, winding.chain(), monitor);
+  const auto failed = [](const Refined& tried) {
+    return !tried.report.reached() && tried.report.aim() != Refinement::unknown && tried.report.complete == 1;
+  };
   RefineOptions attempt = options;
   attempt.lowest_floor = std::max(options.lowest_floor, first_lowest_floor);
-  Refined result = refine_once(boundary, winding, points, wanted, attempt, monitor);
-  if (!result.report.reached() && result.report.aim() != Refinement::unknown && result.report.complete == 1 &&
-      options.lowest_floor < attempt.lowest_floor) {
-    result = refine_once(boundary, winding, points, wanted, options, monitor);
+  Refined result = refine_once(boundary, winding, points, wanted, attempt, Ends::reach, monitor);
+  if (failed(result) && options.lowest_floor < attempt.lowest_floor)
+    result = refine_once(boundary, winding, points, wanted, options, Ends::reach, monitor);
+  if (failed(result)) {  // balls in a very narrow end may not hang together
+    Refined left = refine_once(boundary, winding, points, wanted, options, Ends::leave, monitor);
+    if (left.report.reached()) result = std::move(left);
   }
   result.report.left_out = static_cast<std::int64_t>(mesh.triangles.size() - boundary.triangles.size());
   monitor.step(1);

@@ -24,7 +24,7 @@ struct Refine {
   RefineOptions options;
 
   static void declare(NodeDecl<Refine>& d) {
-    d.id("Refine", 2)
+    d.id("Refine", 3)
         .summary("Choose samples of a closed surface that are dense where its shape asks for it.");
     d.doc(
         "The vertices of a part say little about its shape: a cube has 8, and they make one ball of twice "

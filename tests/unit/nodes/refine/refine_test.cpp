@@ -98,6 +98,25 @@ INSTANTIATE_TEST_SUITE_P(Generated, Solids,
                            return "model_" + letters;
                          });
 
+/// Corners that are sharper than the floor asks for samples: their tips were in no ball, and far from all.
+TEST(refine, balls_reach_into_sharp_ends) {
+  for (const double width : {0.4, 0.1}) {
+    const std::vector<Vec3> corners{{0, 0, 0}, {1, 0, 0}, {1, width, 0.1 * width}, {1, 0.3 * width, width}};
+    const TriangleMesh mesh{corners, std::vector<Triangle>{{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}}};
+    const Refined result = refined(mesh);
+    EXPECT_TRUE(result.report.reached()) << what_is_missing(result.report);
+    const Balls inner = inner_balls(result.points, mesh);
+    const double length = bounding_box(mesh.vertices.span()).longest_edge();
+    for (const Vec3 tip : corners) {
+      double away = 1e300;
+      for (std::size_t i = 0; i < inner.size(); ++i)
+        away = std::min(away, distance(tip, inner.centers[i]) - inner.radii[i]);
+      EXPECT_LE(away, 0.004 * length) << "width " << width << ", corner " << tip.x << " " << tip.y;
+    }
+    EXPECT_LE(result.report.samples, 20'000) << width;
+  }
+}
+
 TEST(refine, the_boundary_of_the_inner_cells_is_a_closed_oriented_surface_of_the_samples) {
   for (const char* shape : {"torus?n=600", "bracket?n=500", "doubleTorus?n=1500"}) {
     const TriangleMesh mesh = generate(parse_shape(shape));
