@@ -268,8 +268,9 @@ bool Refinery::reach_narrow_ends(const InnerCells& cells) {
   const Balls balls = inner_balls().balls;
   std::vector<SurfacePoint> rings;
   for (const std::int32_t s : cells.uncovered)
-    add_rings(position(triangulation_.vertices()[at(s)]), balls, end_share * lengths_.delta, lengths_.lowest, surface_,
-              rings);
+    add_rings(position(triangulation_.vertices()[at(s)]), balls, end_share * lengths_.delta, lengths_.lowest,
+              surface_, rings);
+  if (rings.empty()) return false;
   bool inserted = false;
   for (const SurfacePoint& point : rings) inserted = insert(point, lengths_.lowest, Cell()) || inserted;
   ++rounds_;
