@@ -311,7 +311,7 @@ TEST(export_any, type_of_a_foreign_plugin_has_the_generic_formats) {
   EXPECT_EQ(default_format("Balls"), "ply");
   EXPECT_EQ(export_formats(*sealed(sample_balls())),
             (std::vector<std::string>{"ply", "csv", "obj", "vtp", "npy", "glb", "ma", "sph", "yaml", "urdf",
-                                      "json", "safetensors"}));
+                                      "svg", "json", "safetensors"}));
 }
 
 TEST(export_any, format_is_the_extension_in_any_case_unless_given) {
@@ -331,8 +331,9 @@ TEST(export_any, unknown_format_lists_the_known_ones) {
       FAIL() << name;
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ExitCode::usage);
-      EXPECT_NE(error.hint().find("ply, csv, obj, vtp, npy, glb, ma, sph, yaml, urdf, json, safetensors"),
-                std::string::npos)
+      EXPECT_NE(
+          error.hint().find("ply, csv, obj, vtp, npy, glb, ma, sph, yaml, urdf, svg, json, safetensors"),
+          std::string::npos)
           << error.hint();
     }
   }
