@@ -351,18 +351,17 @@ TriangleMesh boundary_of_solid(const TriangleMesh& mesh, const SurfaceChain& cha
 /// % of the box: the lowest floor of the first try.
 constexpr double first_lowest_floor = 0.0005;
 
-enum class Ends : std::uint8_t { reach, leave };
-
-/// Steps 1 to 5 with one lowest floor; without step 4 where ends are left.
+/// Steps 1 to 5 with one lowest floor, step 4 at most `most_ends` times; `ends` becomes true where it did
+/// anything.
 Refined refine_once(const TriangleMesh& boundary, const WindingNumber& winding, const PointSet& points,
-                    const std::optional<Betti>& wanted, const RefineOptions& options, Ends ends,
-                    Monitor& monitor) {
+                    const std::optional<Betti>& wanted, const RefineOptions& options, int most_ends,
+                    bool& ends, Monitor& monitor) {
   Refinery refinery(boundary, winding, options, monitor);
   refinery.start(boundary, options.keep_points ? points : PointSet{}, options);
   refinery.refine_balls();
   InnerCells cells = refinery.refine_cells(wanted);
-  const int most_ends = ends == Ends::reach ? 3 : 0;
   for (int i = 0; i < most_ends && refinery.reach_narrow_ends(cells); ++i) {
+    ends = true;
     refinery.refine_balls();
     cells = refinery.refine_cells(wanted);
   }
@@ -428,13 +427,15 @@ Refined refine(const TriangleMesh& mesh, const PointSet& points, const std::opti
   const auto failed = [](const Refined& tried) {
     return !tried.report.reached() && tried.report.aim() != Refinement::unknown && tried.report.complete == 1;
   };
+  constexpr int most_ends = 3;
+  bool ends = false;
   RefineOptions attempt = options;
   attempt.lowest_floor = std::max(options.lowest_floor, first_lowest_floor);
-  Refined result = refine_once(boundary, winding, points, wanted, attempt, Ends::reach, monitor);
+  Refined result = refine_once(boundary, winding, points, wanted, attempt, most_ends, ends, monitor);
   if (failed(result) && options.lowest_floor < attempt.lowest_floor)
-    result = refine_once(boundary, winding, points, wanted, options, Ends::reach, monitor);
-  if (failed(result)) {  // balls in a very narrow end may not hang together
-    Refined left = refine_once(boundary, winding, points, wanted, options, Ends::leave, monitor);
+    result = refine_once(boundary, winding, points, wanted, options, most_ends, ends, monitor);
+  if (failed(result) && ends) {  // balls in a very narrow end may not hang together
+    Refined left = refine_once(boundary, winding, points, wanted, options, 0, ends, monitor);
     if (left.report.reached()) result = std::move(left);
   }
   result.report.left_out = static_cast<std::int64_t>(mesh.triangles.size() - boundary.triangles.size());
