@@ -360,6 +360,7 @@ Refined refine_once(const TriangleMesh& boundary, const WindingNumber& winding, 
   refinery.start(boundary, options.keep_points ? points : PointSet{}, options);
   refinery.refine_balls();
   InnerCells cells = refinery.refine_cells(wanted);
+  if (!wanted) most_ends = 0;
   for (int i = 0; i < most_ends && refinery.reach_narrow_ends(cells); ++i) {
     ends = true;
     refinery.refine_balls();

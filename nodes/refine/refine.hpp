@@ -51,10 +51,10 @@ struct Refined {
 ///    at least lowest_floor, so this ends.
 /// 3. While the boundary of T is no surface, or has other Betti numbers than the solid: lower the floor at
 ///    samples where that shows, add points where dual edges of their facets cross the surface, go to 2.
-/// 4. While a sample of no inner ball is farther than 0.7 delta from all of them, as the tip of a spike is:
-/// add rings
-///    of points around the line from the nearest ball to it, as close as the spike is narrow, go to 2. At
-///    most three times, and not at all where balls in narrow ends do not hang together then.
+/// 4. Where that of the solid is known: while a sample of no inner ball is farther than 0.7 delta from
+///    all of them, as the tip of a spike is, add rings of points around the line from the nearest ball to it,
+///    as close as the spike is narrow, and go to 2. At most three times, and not at all where balls in narrow
+///    ends do not hang together then.
 /// 5. While the union of the balls has other Betti numbers than it should (caps of balls can meet outside of
 ///    T): add the points next to the balls that meet without a common sample, go to 2. At most four times.
 ///    Where nobody knows the topology of the solid 3 is done three times at most, and 5 only when T has one.
