@@ -210,8 +210,6 @@ TEST_F(RunOptionsTest, digests_are_the_same_on_a_processor_without_fma_and_avx2)
     const json graph = json::parse(test::read_file(arguments[0]), nullptr, true, true);
     if (graph.contains("params") && graph.at("params").contains("input"))
       arguments.insert(arguments.end(), {"--set", "input=shape:torus?n=2000"});
-    if (arguments[0].ends_with("/robot_spheres.json"))  // two fits stand for many
-      arguments.insert(arguments.end(), {"--set", "curves.fits=2,4"});
     arguments.insert(arguments.begin(), "run");
     arguments.insert(arguments.end(), {"--report", folder.file("report.json"), "--cache"});
     // A cache for each processor: what graphs have in common is computed once on each.
