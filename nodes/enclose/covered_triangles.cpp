@@ -233,4 +233,42 @@ UncoveredPart BallsForTriangles::uncovered(const Corners& triangle, double size)
   return result;
 }
 
+double BallsForTriangles::gap_at_most(const Corners& triangle, double settled, double tolerance) const {
+  constexpr std::int64_t most_parts = std::int64_t{1} << 20;
+  // The distance from a ball is convex, so that no point of a part is farther from it than a corner.
+  const auto of_corners = [&](const Corners& part, Vec3 center) {
+    return tree_.smallest(center, std::numeric_limits<double>::infinity(),
+                          -std::numeric_limits<double>::infinity(), [&](std::size_t i) {
+                            double farthest = distance(center, centers_[i]);
+                            for (const Vec3 corner : part)
+                              farthest = std::max(farthest, distance(corner, centers_[i]));
+                            return farthest - radii_[i];
+                          });
+  };
+  double least = settled, most = settled;
+  std::int64_t parts = 0;
+  std::vector<Corners> waiting{triangle};
+  while (!waiting.empty()) {
+    const Corners part = waiting.back();
+    waiting.pop_back();
+    ++parts;
+    const Vec3 center = around(part).center;
+    const double upper = of_corners(part, center);
+    if (upper <= most) continue;
+    least = std::max(least, distance_from_union(center));
+    if (upper <= least + tolerance || parts >= most_parts) {
+      most = upper;
+      continue;
+    }
+    const std::size_t k = opposite_longest(part);
+    const Vec3 half = 0.5 * (part[(k + 1) % 3] + part[(k + 2) % 3]);
+    for (const std::size_t moved : {(k + 1) % 3, (k + 2) % 3}) {
+      Corners child = part;
+      child[moved] = half;
+      waiting.push_back(child);
+    }
+  }
+  return most;
+}
+
 }  // namespace ballflow::geometry

@@ -38,6 +38,10 @@ class BallsForTriangles {
   TriangleCover cover(const Corners& triangle) const;
   /// Parts no longer than `size`; in doubles.
   UncoveredPart uncovered(const Corners& triangle, double size) const;
+  /// No point of the triangle is farther from the union than this, up to rounding, and it is at most
+  /// `tolerance` above the largest distance, or above `settled`, whichever is more. (Beyond a million parts
+  /// it may be more above.) Precondition: there are balls.
+  double gap_at_most(const Corners& triangle, double settled, double tolerance) const;
 
  private:
   std::vector<std::int32_t> meeting(const Corners& triangle) const;

@@ -10,8 +10,8 @@
 
 #include "base/for_each_block.hpp"
 #include "enclose/covered_triangles.hpp"
+#include "enclose/union_voids.hpp"
 #include "power/power_diagram.hpp"
-#include "power/voids.hpp"
 #include "search/surface_tree.hpp"
 #include "search/winding_number.hpp"
 
@@ -25,13 +25,30 @@ Corners corners_of(const TriangleMesh& mesh, std::size_t t) {
   return {mesh.vertices[at(a)], mesh.vertices[at(b)], mesh.vertices[at(c)]};
 }
 
+/// Of the triangles `open`, of which a point is `gap` away.
+double gap_at_most(const TriangleMesh& mesh, const BallsForTriangles& tree,
+                   const std::vector<std::int32_t>& open, const Balls& balls, double gap, Monitor& monitor) {
+  if (open.empty()) return 0;
+  const Box box = bounding_box(mesh.vertices.span()), of_balls = bounding_box(balls);
+  const double tolerance = std::max(0.01 * gap, 2e-4 * box.longest_edge());
+  std::vector<double> most(open.size());
+  for_each_block(open.size(), 16, monitor, 0.6, 0.7, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      most[i] = tree.gap_at_most(corners_of(mesh, at(open[i])), gap, tolerance);
+  });
+  double largest = 0;
+  for (const Vec3 p : {box.lower, box.upper, of_balls.lower, of_balls.upper})
+    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  return *std::max_element(most.begin(), most.end()) + 0x1p-44 * largest;
+}
+
 void look_at_triangles(const TriangleMesh& mesh, const Balls& balls, Monitor& monitor, Enclosure& result) {
   const BallsForTriangles tree(balls);
   const double size = 0.005 * bounding_box(mesh.vertices.span()).longest_edge();
   std::vector<TriangleCover> covers(mesh.triangles.size());
   std::vector<UncoveredPart> parts(mesh.triangles.size());
   constexpr std::size_t block = 16;
-  for_each_block(covers.size(), block, monitor, 0, 0.7,
+  for_each_block(covers.size(), block, monitor, 0, 0.6,
                  [&](std::size_t, std::size_t first, std::size_t last) {
                    for (std::size_t t = first; t < last; ++t) {
                      covers[t] = tree.cover(corners_of(mesh, t));
@@ -54,32 +71,19 @@ void look_at_triangles(const TriangleMesh& mesh, const Balls& balls, Monitor& mo
     why.push_back(static_cast<std::uint8_t>(*covers[t].open));
   }
   if (balls.size() == 0) result.open_area = result.area;
+  if (balls.size() > 0) result.gap_at_most = gap_at_most(mesh, tree, open, balls, result.gap, monitor);
   result.open_triangles = std::move(open);
   result.open_points = std::move(points);
   result.open_why = std::move(why);
 }
 
-/// Of every void the place where the balls are farthest away, by their powers.
 void look_at_voids(const PowerDiagram& diagram, const WindingNumber& winding, Monitor& monitor,
                    Enclosure& result) {
-  const Voids voids(diagram, monitor);
-  SimplicialComplex balls;  // what power_vertex looks at
-  balls.centers = diagram.centers;
-  balls.weights = diagram.weights;
   std::vector<Vec3> points;
   std::vector<std::uint8_t> places;
-  for (std::int32_t v = Voids::outer + 1; v < voids.count(); ++v) {
-    PowerVertex deepest{{}, -std::numeric_limits<double>::infinity()};
-    for (const Voids::Cell& cell : voids.cells_of(v)) {
-      const PowerVertex vertex = power_vertex(balls, cell);
-      if (vertex.power > deepest.power) deepest = vertex;  // false for what is not finite
-    }
-    VoidPlace place = VoidPlace::unknown;
-    if (winding.chain().closed()) {
-      place = winding.around(deepest.point).number == 0 ? VoidPlace::outside : VoidPlace::inside;
-    }
-    points.push_back(deepest.point);
-    places.push_back(static_cast<std::uint8_t>(place));
+  for (const UnionVoid& found : union_voids(diagram, winding, monitor)) {
+    points.push_back(found.deepest);
+    places.push_back(static_cast<std::uint8_t>(found.place));
   }
   result.void_points = std::move(points);
   result.void_places = std::move(places);
@@ -137,7 +141,7 @@ Enclosure verify_enclosure(const TriangleMesh& mesh, const Balls& balls,
   if (const std::string broken = broken_invariant(balls); !broken.empty()) {
     throw InputError(broken, "repair or remove the ball");
   }
-  if (mesh.triangles.empty()) {
+  if (mesh.triangles.empty() && options.on_open != OnOpen::expect) {
     throw InputError("there are no triangles, so there is nothing to enclose",
                      "give a mesh; whether points are covered is what VerifyCover tells");
   }
@@ -146,6 +150,7 @@ Enclosure verify_enclosure(const TriangleMesh& mesh, const Balls& balls,
   result.meant = options.on_open == OnOpen::expect ? 0 : 1;
   result.balls = static_cast<std::int64_t>(balls.size());
   result.triangles = static_cast<std::int64_t>(mesh.triangles.size());
+  if (mesh.triangles.empty()) return result;
   look_at_triangles(mesh, balls, monitor, result);
   PartMonitor seeking(monitor, 0.7, 0.85);
   const WindingNumber winding(mesh, seeking);

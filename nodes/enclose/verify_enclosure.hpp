@@ -38,9 +38,11 @@ struct VerifyEnclosureOptions {
 ///
 /// Only triangles and balls are looked at, so that it also checks balls of other programs.
 /// - `diagram`: the power diagram of the balls, with tolerance none, where it is at hand.
-/// - Throws InputError for inputs that break their invariants, no triangles, and with on_open error for what
-/// is
-///   not enclosed.
+/// - gap_at_most: the distance from a ball is convex, so that the corners of a part bound it; parts are
+///   bisected until the largest distance is known to 1 %, or 0.02 % of the longest edge of the box. What
+///   rounding can add, 2^-44 of the largest coordinate, is added.
+/// - Throws InputError for inputs that break their invariants, no triangles but with on_open expect (then
+///   nothing is proven), and with on_open error for what is not enclosed.
 /// - The same for any number of threads.
 Enclosure verify_enclosure(const TriangleMesh& mesh, const Balls& balls,
                            const VerifyEnclosureOptions& options, Monitor& monitor = no_monitor(),

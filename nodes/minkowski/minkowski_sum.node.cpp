@@ -1,9 +1,9 @@
-#include "minkowski/minkowski_sum.hpp"
-
 #include <ballflow/sdk.hpp>
 
 #include "exact/cgal_version.hpp"
+#include "minkowski/sum_of_solids.hpp"
 #include "types/artifact_types.hpp"
+#include "types/enclosure_type.hpp"
 
 namespace ballflow::nodes {
 namespace {
@@ -11,16 +11,19 @@ namespace {
 using geometry::MinkowskiAlgorithm;
 using geometry::MinkowskiKeep;
 using geometry::MinkowskiSumOptions;
+using geometry::SumMode;
 
 struct MinkowskiSum {
   In<geometry::Balls> a, b;
   In<geometry::Comparison> a_comparison, b_comparison;
+  In<geometry::Enclosure> a_enclosure, b_enclosure;
   Out<geometry::Balls> balls;
   Out<geometry::MinkowskiReport> report;
   MinkowskiSumOptions options;
+  SumMode mode = SumMode::balanced;
 
   static void declare(NodeDecl<MinkowskiSum>& d) {
-    d.id("MinkowskiSum", 2).summary("The Minkowski sum of two unions of balls: again a union of balls.");
+    d.id("MinkowskiSum", 3).summary("The Minkowski sum of two unions of balls: again a union of balls.");
     d.doc(
         "The sums (c + c', r + r') of a ball of either set that contribute to the union of all: those with a "
         "point "
@@ -53,6 +56,13 @@ struct MinkowskiSum {
             "the "
             "union of a");
     d.input("b_comparison", &MinkowskiSum::b_comparison).optional().doc("the same of b");
+    d.input("a_enclosure", &MinkowskiSum::a_enclosure)
+        .optional()
+        .doc(
+            "what VerifyEnclosure proved of a and the mesh of its solid: gives bounds both ways, and with "
+            "mode "
+            "inner or outer the proof that the sum is bounded from that side");
+    d.input("b_enclosure", &MinkowskiSum::b_enclosure).optional().doc("the same of b");
     d.output("balls", &MinkowskiSum::balls).doc("the contributing sums, ascending by x, y, z of the center");
     d.output("report", &MinkowskiSum::report).doc("numbers of pairs and balls, bounding box, error bound");
     d.choice(
@@ -70,13 +80,21 @@ struct MinkowskiSum {
     d.choice("keep", &MinkowskiSum::options, &MinkowskiSumOptions::keep,
              {{MinkowskiKeep::contributing, "contributing", "all sums that contribute"}})
         .doc("which sums are kept");
+    d.choice(
+         "mode", &MinkowskiSum::mode,
+         {{SumMode::balanced, "balanced", "sums are rounded to nearest"},
+          {SumMode::inner, "inner", "sums are rounded inwards: balls inside give a sum inside"},
+          {SumMode::outer, "outer", "sums are rounded outwards: balls that enclose give a sum that does"}})
+        .doc("which side of the sum of the solids the balls of a and b are made for");
   }
 
   void run(RunContext& context) {
     ContextMonitor monitor(context);
-    geometry::MinkowskiSum sum = geometry::minkowski_sum(
-        *a, *b, options, monitor,
-        {.a = a_comparison ? &*a_comparison : nullptr, .b = b_comparison ? &*b_comparison : nullptr});
+    geometry::MinkowskiSum sum = geometry::sum_of_solids(
+        *a, *b, mode,
+        {.a = a_comparison ? &*a_comparison : nullptr, .b = b_comparison ? &*b_comparison : nullptr},
+        {.a = a_enclosure ? &*a_enclosure : nullptr, .b = b_enclosure ? &*b_enclosure : nullptr}, options,
+        monitor);
     balls = std::move(sum.balls);
     report = sum.report;
   }

@@ -26,6 +26,7 @@ std::string percent(double share) {
 
 std::string describe(const Enclosure& e) {
   if (e.encloses()) return "everything inside the surface is in the balls";
+  if (e.triangles == 0) return "there is no surface: points enclose nothing";
   std::string text;
   if (!e.covers()) {
     char more[96];
@@ -63,6 +64,8 @@ std::string broken_invariant(const Enclosure& e) {
   for (const double x : {e.area, e.open_area, e.gap, e.protrusion}) {
     if (!(x >= 0) || !std::isfinite(x)) return "an area or a distance is " + std::to_string(x);
   }
+  if (!std::isfinite(e.gap_at_most) || (e.gap_at_most != -1 && e.gap_at_most < e.gap))
+    return "gap_at_most is " + std::to_string(e.gap_at_most) + ", less than gap";
   return {};
 }
 

@@ -38,15 +38,19 @@ struct Enclosure {
   double open_area = 0;
   double gap =
       0;  // farthest of the looked-at points of the mesh from the union, model units; 0: none outside
+  // No point of the triangles is farther from the union than that, up to rounding; model units. 0 where they
+  // are covered, -1 where nothing is known: without balls, and without triangles.
+  double gap_at_most = -1;
 
   Array<Vec3> void_points;          // v x 3: a point in every void, rounded
   Array<std::uint8_t> void_places;  // v: VoidPlace
 
   // No point of the balls is farther than that from the solid (of a closed mesh, its inside included), or
-  // from the triangles (of others); model units. 0 for balls inside.
+  // from the triangles (of others); model units. 0 for balls inside, and where there are no triangles.
   double protrusion = 0;
 
-  bool covers() const { return open_triangles.size() == 0; }
+  /// Where there are no triangles nothing is proven.
+  bool covers() const { return triangles > 0 && open_triangles.size() == 0; }
   std::int64_t voids_that_matter() const;
   /// The union contains the triangles and everything that they separate from infinity.
   bool encloses() const { return covers() && voids_that_matter() == 0; }

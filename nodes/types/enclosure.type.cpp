@@ -4,7 +4,7 @@ namespace ballflow {
 
 void TypeOf<geometry::Enclosure>::declare(TypeDecl<geometry::Enclosure>& d) {
   using T = geometry::Enclosure;
-  d.id("Enclosure", 2).doc("Whether a union of balls contains everything inside a surface.");
+  d.id("Enclosure", 3).doc("Whether a union of balls contains everything inside a surface.");
   d.scalar("balls", &T::balls).doc("number of balls");
   d.scalar("triangles", &T::triangles).doc("triangles of the mesh");
   d.scalar("pieces", &T::pieces).doc("parts of the triangles that lie in one ball each");
@@ -18,6 +18,8 @@ void TypeOf<geometry::Enclosure>::declare(TypeDecl<geometry::Enclosure>& d) {
   d.scalar("area", &T::area).doc("of the triangles, squared model units");
   d.scalar("open_area", &T::open_area).doc("about how much of it is in no ball");
   d.scalar("gap", &T::gap).doc("farthest of the looked-at points of the mesh from the balls, model units");
+  d.scalar("gap_at_most", &T::gap_at_most)
+      .doc("no point of the mesh is farther from the balls, model units; -1: not known");
   d.array("void_points", &T::void_points).length("v").doc("a point in every void of the union");
   d.array("void_places", &T::void_places).length("v").doc("0 outside the solid, 1 inside, 2 not known");
   d.scalar("protrusion", &T::protrusion)
@@ -28,6 +30,8 @@ void TypeOf<geometry::Enclosure>::declare(TypeDecl<geometry::Enclosure>& d) {
   d.summary("triangles", "triangles of the mesh").summary("open_triangles", "those not proven to be covered");
   d.summary("open_share", "about which part of the surface is in no ball");
   d.summary("gap", "farthest point of the mesh from the balls that was met, model units");
+  d.summary("gap_at_most",
+            "no point of the mesh is farther from the balls, model units; null without balls or triangles");
   d.summary("voids", "voids inside the solid").summary("closed", "whether the mesh is closed");
   d.summary("protrusion", "no point of the balls is farther from the solid; model units");
   d.summary("pieces", "parts of the triangles that lie in one ball each");
@@ -40,6 +44,7 @@ void TypeOf<geometry::Enclosure>::declare(TypeDecl<geometry::Enclosure>& d) {
                    {"open_triangles", static_cast<std::int64_t>(v.open_triangles.size())},
                    {"open_share", v.area > 0 ? v.open_area / v.area : 0.0},
                    {"gap", v.gap},
+                   {"gap_at_most", v.gap_at_most < 0 ? SummaryValue(nullptr) : SummaryValue(v.gap_at_most)},
                    {"voids", v.voids_that_matter()},
                    {"closed", v.closed != 0},
                    {"protrusion", v.protrusion},

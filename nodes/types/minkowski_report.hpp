@@ -9,6 +9,21 @@
 
 namespace ballflow::geometry {
 
+/// How the sums of pairs of balls were rounded.
+enum class SumsRounded : std::uint8_t {
+  to_nearest,
+  inwards,   // a ball lies in the exact sum of its pair
+  outwards,  // a ball contains it
+};
+
+/// What is known of the balls of one side and its solid: that they enclose it, or that they lie inside.
+enum class SideProof : std::uint8_t {
+  unknown,  // nothing was looked at, or there is no solid
+  proven,
+  refuted,  // or not proven where it was tried
+  itself,   // the solid is the union of the balls
+};
+
 struct MinkowskiReport {
   std::int64_t pairs = 0;  // |A| * |B|
   std::int64_t survivors =
@@ -24,7 +39,24 @@ struct MinkowskiReport {
   // ComparedWith: what the balls of a and of b were compared with. A solid that was compared with nothing is
   // the union of its balls.
   std::uint8_t a_compared_with = 0, b_compared_with = 0;
+
+  // No point of the union is farther than this from A + B; negative: unknown. Model units.
+  double excess_bound = -1;
+  std::uint8_t rounded = 0;                     // SumsRounded
+  std::uint8_t a_encloses = 0, b_encloses = 0;  // SideProof: a solid lies in its balls
+  std::uint8_t a_inside = 0, b_inside = 0;      // SideProof: no ball reaches out of its solid
+
+  /// The union contains A + B: proven.
+  bool contains() const;
+  /// The union lies inside A + B: proven.
+  bool inside() const;
 };
+
+/// Which of both is proven, and how; empty where nothing is.
+std::string proven_statement(const MinkowskiReport& report);
+
+/// Why neither is proven; empty where one is.
+std::string why_not_one_sided(const MinkowskiReport& report);
 
 /// Why there is no error bound; empty when there is one. A bound needs a comparison, and every comparison
 /// must be with a closed mesh: points and open meshes are no boundary of a solid.

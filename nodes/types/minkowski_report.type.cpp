@@ -6,10 +6,17 @@
 #include "types/type_of.hpp"
 
 namespace ballflow {
+namespace {
+
+SummaryValue words_or_null(const std::string& words) {
+  return words.empty() ? SummaryValue(nullptr) : SummaryValue(words);
+}
+
+}  // namespace
 
 void TypeOf<geometry::MinkowskiReport>::declare(TypeDecl<geometry::MinkowskiReport>& d) {
   using T = geometry::MinkowskiReport;
-  d.id("MinkowskiReport", 2).doc("What the Minkowski sum of two sets of balls came to.");
+  d.id("MinkowskiReport", 3).doc("What the Minkowski sum of two sets of balls came to.");
   d.scalar("pairs", &T::pairs).doc("pairs of balls");
   d.scalar("survivors", &T::survivors)
       .doc("sums of pairs that were triangulated; of algorithm memory: that were vertices at the end");
@@ -22,6 +29,14 @@ void TypeOf<geometry::MinkowskiReport>::declare(TypeDecl<geometry::MinkowskiRepo
   d.scalar("a_compared_with", &T::a_compared_with)
       .doc("the solid a: 0 its balls, 1 points, 2 an open mesh, 3 a closed mesh, or polygons");
   d.scalar("b_compared_with", &T::b_compared_with).doc("the same of b");
+  d.scalar("excess_bound", &T::excess_bound)
+      .doc("no point of the union is farther from the sum of the solids; -1: unknown");
+  d.scalar("rounded", &T::rounded).doc("sums are rounded 0 to nearest, 1 inwards, 2 outwards");
+  d.scalar("a_encloses", &T::a_encloses)
+      .doc("the solid a lies in its balls: 0 not known, 1 proven, 2 not so, 3 it is its balls");
+  d.scalar("b_encloses", &T::b_encloses).doc("the same of b");
+  d.scalar("a_inside", &T::a_inside).doc("no ball reaches out of the solid a: as before");
+  d.scalar("b_inside", &T::b_inside).doc("the same of b");
   d.summary("pairs", "pairs of balls").summary("survivors", "sums of pairs that were triangulated");
   d.summary("count", "sums that contribute: the balls of the result");
   d.summary("touching_boundary", "of these, have a piece of their sphere on the boundary of the union");
@@ -30,19 +45,28 @@ void TypeOf<geometry::MinkowskiReport>::declare(TypeDecl<geometry::MinkowskiRepo
       "error_bound",
       "no point of the surface of the sum of the solids is farther from the union, model units; null when "
       "it is unknown");
+  d.summary("excess_bound",
+            "no point of the union is farther from the sum of the solids, model units; null when it is "
+            "unknown");
+  d.summary("proven", "contains A + B, or lies inside A + B, and how that is proven; null when neither is");
+  d.summary("not_proven", "why neither is");
   d.summary("error_bound_unknown", "why there is no error bound: no comparison, or one with no closed mesh");
   d.summarize([](const T& v) {
     geometry::Box box;
     if (v.count > 0) box = {v.lower, v.upper};
     const std::string why = geometry::why_unbounded(static_cast<geometry::ComparedWith>(v.a_compared_with),
                                                     static_cast<geometry::ComparedWith>(v.b_compared_with));
-    return Summary{{"pairs", v.pairs},
-                   {"survivors", v.survivors},
-                   {"count", v.count},
-                   {"touching_boundary", v.touching_boundary},
-                   {"bbox", box_summary(box)},
-                   {"error_bound", v.error_bound < 0 ? SummaryValue(nullptr) : SummaryValue(v.error_bound)},
-                   {"error_bound_unknown", why.empty() ? SummaryValue(nullptr) : SummaryValue(why)}};
+    return Summary{
+        {"pairs", v.pairs},
+        {"survivors", v.survivors},
+        {"count", v.count},
+        {"touching_boundary", v.touching_boundary},
+        {"bbox", box_summary(box)},
+        {"error_bound", v.error_bound < 0 ? SummaryValue(nullptr) : SummaryValue(v.error_bound)},
+        {"excess_bound", v.excess_bound < 0 ? SummaryValue(nullptr) : SummaryValue(v.excess_bound)},
+        {"proven", words_or_null(geometry::proven_statement(v))},
+        {"not_proven", words_or_null(geometry::why_not_one_sided(v))},
+        {"error_bound_unknown", words_or_null(why)}};
   });
   d.check([](const T& v) { return geometry::broken_invariant(v); });
 }

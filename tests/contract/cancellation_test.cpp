@@ -315,6 +315,11 @@ TEST_F(Cancellation, every_node_ends_soon_after_it_was_cancelled_at_any_moment) 
     if (is_wanted(file, ""))
       runs.push_back({file, {{"input", model(file)}, {"delta", "0.3"}, {"sampling", sampling}}});
   }
+  for (const char* mode : {"inner", "outer"}) {
+    const std::string file = test::source_file("graphs/offset.json");
+    if (is_wanted(file, ""))
+      runs.push_back({file, {{"input", model(file)}, {"sampling", "vertices"}, {"mode", mode}}});
+  }
   // First those that keep all balls, so that nodes after the pruning meet many.
   const auto prunes = [](const auto& run) {
     return !run.second.empty() && run.second.back().value != "none";

@@ -57,6 +57,11 @@ const std::vector<Case>& cases() {
       {"balls", "balls", {}, kNoTopology},  // a ring of balls and one ball apart: Betti 2 1 0
       {"minkowski_sum", "minkowski_sum",
        as_in_the_thesis({{"a", "shape:torus?n=2000"}, {"b", "shape:knot?n=3000&R=0.2"}}), kNoTopology},
+      {"minkowski_sum_outer", "minkowski_sum",
+       as_in_the_thesis({{"a", "shape:torus?n=1000"}, {"b", "shape:box?n=500&R=0.3"}, {"mode", "outer"}}),
+       kNoTopology},
+      {"3cross_offset_inner", "offset",
+       as_in_the_thesis({{"input", "shape:3cross?n=2000"}, {"mode", "inner"}}), kNoTopology},
       {"box_dmt", "dmt", of_vertices({{"input", "shape:box?n=2000"}}), kNoTopology},
       {"knot_points", "dmt_points", {{"input", "shape:knot?n=8000"}}, kNoTopology},
       {"double_torus_growth", "growth",

@@ -116,8 +116,15 @@ std::string growth(const Json& s) {
 std::string minkowski(const Json& s) {
   std::string text = number(s, "pairs") + " pairs, " + number(s, "count") + " contribute, " +
                      number(s, "touching_boundary") + " on the boundary";
-  if (s.at("error_bound").is_number()) {
+  if (s.at("proven").is_string()) {
+    const bool contains = s.at("proven").get<std::string>().starts_with("contains");
+    text += contains ? ", contains A + B: proven" : ", inside A + B: proven";
+    const char* other = contains ? "excess_bound" : "error_bound";
+    if (s.at(other).is_number())
+      text += (contains ? ", beyond it by at most " : ", error at most ") + rounded(s, other);
+  } else if (s.at("error_bound").is_number()) {
     text += ", error at most " + rounded(s, "error_bound");
+    if (s.at("excess_bound").is_number()) text += ", beyond A + B by at most " + rounded(s, "excess_bound");
   } else if (s.at("error_bound_unknown").is_string()) {
     text += ", error unknown: " + s.at("error_bound_unknown").get<std::string>();
   }

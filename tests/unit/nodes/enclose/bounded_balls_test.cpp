@@ -1,39 +1,15 @@
 #include "enclose/bounded_balls.hpp"
 
-#include <CGAL/Exact_rational.h>
-#include <CGAL/Simple_cartesian.h>
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
+#include "ball_bounds.hpp"
 #include "enclose_shapes.hpp"
-#include "search/winding_number.hpp"
 
 namespace ballflow::geometry {
 namespace {
-
-using ExactKernel = CGAL::Simple_cartesian<CGAL::Exact_rational>;
-
-ExactKernel::Point_3 exact_point(Vec3 p) { return {p.x, p.y, p.z}; }
-
-/// That no point of a ball is farther than `within` from the solid, in rational arithmetic: its centre is
-/// inside, and r - within is no more than its distance to any triangle.
-void expect_bounded(const TriangleMesh& mesh, const Balls& balls, double within) {
-  const WindingNumber winding(mesh, no_monitor());
-  for (std::size_t i = 0; i < balls.size(); ++i) {
-    EXPECT_NE(winding.around(balls.centers[i]).number, 0) << "centre " << i;
-    const CGAL::Exact_rational rest = CGAL::Exact_rational(balls.radii[i]) - CGAL::Exact_rational(within);
-    if (rest <= 0) continue;
-    for (const Triangle& t : mesh.triangles) {
-      const auto corner = [&](std::size_t k) {
-        return exact_point(mesh.vertices[static_cast<std::size_t>(t[k])]);
-      };
-      const ExactKernel::Triangle_3 triangle(corner(0), corner(1), corner(2));
-      EXPECT_GE(CGAL::squared_distance(exact_point(balls.centers[i]), triangle), rest * rest) << "ball " << i;
-    }
-  }
-}
 
 BoundedBalls bounded(const TriangleMesh& mesh, std::int64_t count, double within, BallGoal goal) {
   BoundedBallsOptions options;

@@ -238,5 +238,67 @@ TEST(verify_enclosure, refuses_spheres_that_enclose_all_samples) {
   EXPECT_EQ(seen, 10);
 }
 
+TEST(verify_enclosure, bounds_how_far_the_surface_is_from_the_balls) {
+  // A ball in a cube: the corners are farthest.
+  const TriangleMesh cube = box_mesh({-1, -1, -1}, {1, 1, 1});
+  const Enclosure one = verify_enclosure(cube, balls_of({{0, 0, 0}}, {1}), report);
+  const double corner = std::sqrt(3.0) - 1;
+  EXPECT_GE(one.gap_at_most, corner);
+  EXPECT_LE(one.gap_at_most, 1.01 * corner + 1e-9);
+  // Two balls, of which either holds an end: the middle is farthest, where no corner of a triangle is.
+  const TriangleMesh bar = box_mesh({-4, -1, -1}, {4, 1, 1});
+  const Enclosure two = verify_enclosure(bar, balls_of({{-4, 0, 0}, {4, 0, 0}}, {2, 2}), report);
+  const double middle = std::sqrt(18.0) - 2;
+  EXPECT_GE(two.gap_at_most, middle);
+  EXPECT_LE(two.gap_at_most, 1.02 * middle);
+  EXPECT_EQ(verify_enclosure(cube, balls_of({{0, 0, 0}}, {2}), report).gap_at_most, 0);
+  EXPECT_EQ(verify_enclosure(cube, {}, report).gap_at_most, -1);
+}
+
+TEST(verify_enclosure, bounds_the_gap_of_random_balls_from_above_and_closely) {
+  std::mt19937_64 random(11);
+  for (const char* name : {"torus?n=200", "box?n=100", "3cross?n=300"}) {
+    const TriangleMesh mesh = shape(name);
+    const Box box = bounding_box(mesh.vertices.span());
+    for (int round = 0; round < 3; ++round) {
+      std::vector<Vec3> centers;
+      std::vector<double> radii;
+      for (int i = 0; i < 12; ++i) {
+        const Vec3 p = random_point(random), edge = box.upper - box.lower;
+        centers.push_back(box.lower + Vec3{p.x * edge.x, p.y * edge.y, p.z * edge.z});
+        radii.push_back(0.3 * random_unit(random) * box.longest_edge());
+      }
+      const Balls balls = balls_of(centers, radii);
+      const Enclosure found = verify_enclosure(mesh, balls, report);
+      double farthest = 0;  // of a fine grid on every triangle
+      for (const Triangle& t : mesh.triangles) {
+        const Vec3 a = mesh.vertices[static_cast<std::size_t>(t[0])],
+                   b = mesh.vertices[static_cast<std::size_t>(t[1])],
+                   c = mesh.vertices[static_cast<std::size_t>(t[2])];
+        constexpr int fine = 12;
+        for (int i = 0; i <= fine; ++i) {
+          for (int j = 0; i + j <= fine; ++j) {
+            const double u = static_cast<double>(i) / fine, v = static_cast<double>(j) / fine;
+            farthest = std::max(farthest, distance_from_balls(balls, a + u * (b - a) + v * (c - a)));
+          }
+        }
+      }
+      EXPECT_GE(found.gap_at_most, farthest);
+      EXPECT_LE(found.gap_at_most, std::max(1.03 * farthest, farthest + 1e-3 * box.longest_edge())) << name;
+    }
+  }
+}
+
+TEST(verify_enclosure, of_points_proves_nothing) {
+  const TriangleMesh cloud{{{0, 0, 0}, {1, 0, 0}}, {}};
+  const Enclosure found = verify_enclosure(cloud, balls_of({{0, 0, 0}}, {9}), {.on_open = OnOpen::expect});
+  EXPECT_EQ(found.triangles, 0);
+  EXPECT_FALSE(found.encloses());
+  EXPECT_EQ(found.gap_at_most, -1);
+  EXPECT_EQ(describe(found), "there is no surface: points enclose nothing");
+  EXPECT_EQ(broken_invariant(found), "");
+  EXPECT_THROW(verify_enclosure(cloud, balls_of({{0, 0, 0}}, {9}), report), InputError);
+}
+
 }  // namespace
 }  // namespace ballflow::geometry
