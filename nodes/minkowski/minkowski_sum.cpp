@@ -10,6 +10,7 @@
 #include "minkowski/power_triangulation.hpp"
 #include "minkowski/sum_lists.hpp"
 #include "minkowski/sums.hpp"
+#include "power/usable_balls.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -51,14 +52,19 @@ MinkowskiSum minkowski_sum(const Balls& a, const Balls& b, const MinkowskiSumOpt
   result.report.b_compared_with = static_cast<std::uint8_t>(compared_with(of.b));
   result.report.error_bound = error_bound(of.a, of.b);
   result.report.pairs = sums.pairs();
-  if (sums.pairs() == 0) return result;
+  const bool minimal = options.keep == MinkowskiKeep::minimal;
+  if (sums.pairs() == 0) {
+    if (minimal) result.report.minimal = 0;
+    return result;
+  }
 
+  PartMonitor most(monitor, 0, minimal ? 0.3 : 1);
   PowerTriangulation triangulation;
   if (options.algorithm == MinkowskiAlgorithm::memory) {
     constexpr std::size_t work = 4096;  // about 10 us
     const MemoryLimit memory(monitor);
     sums.for_each(
-        monitor, 0, 0.9,
+        most, 0, 0.9,
         [&, looked = std::int64_t{0}](const Ball& sum) mutable {
           triangulation.insert_if_contributing(sum);
           if (++looked % 4096 == 0)
@@ -68,23 +74,19 @@ MinkowskiSum minkowski_sum(const Balls& a, const Balls& b, const MinkowskiSumOpt
     result.report.survivors = static_cast<std::int64_t>(triangulation.vertices());
   } else if (options.algorithm == MinkowskiAlgorithm::hierarchical) {
     result.report.survivors =
-        HierarchicalSums(a, b, triangulation, {32, false, bytes_per_pair, bytes_per_vertex}).run(monitor);
+        HierarchicalSums(a, b, triangulation, {32, false, bytes_per_pair, bytes_per_vertex}).run(most);
   } else {
     const bool all = options.algorithm == MinkowskiAlgorithm::time;
     std::vector<Ball> left =
-        all ? all_sums(sums, bytes_per_pair, monitor) : filtered_sums(sums, bytes_per_survivor, monitor);
+        all ? all_sums(sums, bytes_per_pair, most) : filtered_sums(sums, bytes_per_survivor, most);
     result.report.survivors = static_cast<std::int64_t>(left.size());
-    PartMonitor part(monitor, 0.15, 0.9);
+    PartMonitor part(most, 0.15, 0.9);
     triangulation.insert(std::move(left), part);
   }
-  PartMonitor part(monitor, 0.9, 1);
+  PartMonitor part(most, 0.9, 1);
   Contributing found = triangulation.contributing(part);
-  result.report.count = static_cast<std::int64_t>(found.balls.size());
-  result.report.touching_boundary = found.touching_boundary;
-  result.balls = canonical(std::move(found.balls));
-  const Box box = bounding_box(result.balls);
-  result.report.lower = box.lower;
-  result.report.upper = box.upper;
+  PartMonitor last(monitor, minimal ? 0.3 : 1, 1);
+  result.balls = keep(std::move(found), options.keep, UnionOf::balls, result.report, last);
   return result;
 }
 

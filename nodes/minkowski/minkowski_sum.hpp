@@ -37,6 +37,7 @@ enum class MinkowskiAlgorithm {
 /// Which sums are kept.
 enum class MinkowskiKeep {
   contributing,  // those that some point of theirs has a smaller power to than to all others
+  minimal,       // of these a part that has the same union, none of which can go: power/minimal_union.hpp
 };
 
 struct MinkowskiSumOptions {
@@ -58,11 +59,9 @@ struct MinkowskiSum {
 /// The sums a + b that contribute to the union of all: of equal sums one, and of those only the ones with a
 /// point in the closed ball to which the power is strictly smaller than to all other sums (thesis, (5.1)).
 /// - Their union is the Minkowski sum of the two unions, up to the rounding of a + b. A contributing ball
-/// need
-///   not be visible, and the union may not need it: the set is not minimal.
+///   need not be visible, and the union may not need it: `keep` minimal keeps an inclusion-minimal part.
 /// - The result depends on the balls alone, neither on their order, nor on which set is A, nor on the
-/// algorithm.
-///   Decisions are exact.
+///   algorithm. Decisions are exact.
 /// - Accepts any balls: none (the sum is empty), one (an offset), equal, concentric and touching ones,
 /// centers in a
 ///   plane or on a line, radius 0.

@@ -23,7 +23,7 @@ struct MinkowskiSum {
   SumMode mode = SumMode::balanced;
 
   static void declare(NodeDecl<MinkowskiSum>& d) {
-    d.id("MinkowskiSum", 3).summary("The Minkowski sum of two unions of balls: again a union of balls.");
+    d.id("MinkowskiSum", 4).summary("The Minkowski sum of two unions of balls: again a union of balls.");
     d.doc(
         "The sums (c + c', r + r') of a ball of either set that contribute to the union of all: those with a "
         "point "
@@ -63,8 +63,9 @@ struct MinkowskiSum {
             "mode "
             "inner or outer the proof that the sum is bounded from that side");
     d.input("b_enclosure", &MinkowskiSum::b_enclosure).optional().doc("the same of b");
-    d.output("balls", &MinkowskiSum::balls).doc("the contributing sums, ascending by x, y, z of the center");
-    d.output("report", &MinkowskiSum::report).doc("numbers of pairs and balls, bounding box, error bound");
+    d.output("balls", &MinkowskiSum::balls).doc("the sums that are kept, ascending by x, y, z of the center");
+    d.output("report", &MinkowskiSum::report)
+        .doc("numbers of pairs, of balls that contribute, are needed and visible; bounding box, error bound");
     d.choice(
          "algorithm", &MinkowskiSum::options, &MinkowskiSumOptions::algorithm,
          {{MinkowskiAlgorithm::filtered, "filtered",
@@ -77,9 +78,12 @@ struct MinkowskiSum {
            "passes by pairs below nodes of an octree whose balls around all contribute nothing (thesis, "
            "5.3.2)"}})
         .doc("how the sums are found; the balls are the same");
-    d.choice("keep", &MinkowskiSum::options, &MinkowskiSumOptions::keep,
-             {{MinkowskiKeep::contributing, "contributing", "all sums that contribute"}})
-        .doc("which sums are kept");
+    d.choice(
+         "keep", &MinkowskiSum::options, &MinkowskiSumOptions::keep,
+         {{MinkowskiKeep::contributing, "contributing", "all sums that contribute"},
+          {MinkowskiKeep::minimal, "minimal",
+           "a part of them with the same union, of which no ball can go (see MinimalUnion); takes longer"}})
+        .doc("which sums are kept; the union is the same");
     d.choice(
          "mode", &MinkowskiSum::mode,
          {{SumMode::balanced, "balanced", "sums are rounded to nearest"},

@@ -13,6 +13,7 @@
 #include "minkowski/plane_sums.hpp"
 #include "minkowski/sum_lists.hpp"
 #include "power/regular_triangulation_2.hpp"
+#include "power/usable_balls.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -21,16 +22,6 @@ namespace {
 // were ever vertices 40.
 constexpr double bytes_per_vertex = 250, bytes_per_pair = 72 + bytes_per_vertex / 4,
                  bytes_per_survivor = 72 + bytes_per_vertex / 2;
-
-void require_plane(const Balls& discs, const char* name) {
-  for (std::size_t i = 0; i < discs.size(); ++i) {
-    if (discs.centers[i].z == 0) continue;
-    throw InputError("input " + std::string(name) + ": ball " + std::to_string(i) +
-                         " has its center at z = " + std::to_string(discs.centers[i].z) +
-                         ", and discs have z = 0",
-                     "MinkowskiSum takes balls in space");
-  }
-}
 
 void bound_error(const PolygonComparisons& of, MinkowskiReport& report) {
   if (of.a == nullptr && of.b == nullptr) return;
@@ -69,46 +60,47 @@ std::optional<std::array<Ball, 3>> corners(const Balls& a, const Balls& b) {
 
 MinkowskiSum2 minkowski_sum_2(const Balls& a, const Balls& b, const MinkowskiSum2Options& options,
                               Monitor& monitor, const PolygonComparisons& of) {
-  require_usable(a, "a");
-  require_usable(b, "b");
-  require_plane(a, "a");
-  require_plane(b, "b");
+  require_discs(a, "a", "MinkowskiSum");
+  require_discs(b, "b", "MinkowskiSum");
   MinkowskiSum2 result;
   const Sums sums(a, b);
   bound_error(of, result.report);
   result.report.pairs = sums.pairs();
-  if (sums.pairs() == 0) return result;
+  const bool minimal = options.keep == MinkowskiKeep::minimal;
+  if (sums.pairs() == 0) {
+    if (minimal) result.report.minimal = 0;
+    return result;
+  }
   const auto begin = corners(a, b);
   if (!begin) {
     // On one line, where the triangulation in space knows what to do. Every disc that contributes has an arc.
+    // So it is needed.
     MinkowskiSum line = minkowski_sum(a, b, {}, monitor);
     result.balls = std::move(line.balls);
     result.report = line.report;
+    if (minimal) result.report.minimal = result.report.count;
     bound_error(of, result.report);
     return result;
   }
+  PartMonitor most(monitor, 0, minimal ? 0.6 : 1);
   PlaneSums triangulation((*begin)[0], (*begin)[1], (*begin)[2]);
   if (options.algorithm == MinkowskiAlgorithm2::hierarchical) {
     result.report.survivors =
-        HierarchicalSums(a, b, triangulation, {16, true, bytes_per_pair, bytes_per_vertex}).run(monitor);
+        HierarchicalSums(a, b, triangulation, {16, true, bytes_per_pair, bytes_per_vertex}).run(most);
     result.avoided = result.report.pairs - result.report.survivors;
   } else {
     const bool all = options.algorithm == MinkowskiAlgorithm2::quadratic;
     std::vector<Ball> left =
-        all ? all_sums(sums, bytes_per_pair, monitor) : filtered_sums(sums, bytes_per_survivor, monitor);
+        all ? all_sums(sums, bytes_per_pair, most) : filtered_sums(sums, bytes_per_survivor, most);
     result.report.survivors = static_cast<std::int64_t>(left.size());
-    PartMonitor part(monitor, 0.15, 0.9);
+    PartMonitor part(most, 0.15, 0.9);
     triangulation.insert(std::move(left), part);
   }
-  PartMonitor part(monitor, 0.9, 1);
+  PartMonitor part(most, 0.9, 1);
   Contributing found = triangulation.contributing(part);
-  result.report.count = static_cast<std::int64_t>(found.balls.size());
-  result.report.survivors = std::max(result.report.survivors, result.report.count);
-  result.report.touching_boundary = found.touching_boundary;
-  result.balls = canonical(std::move(found.balls));
-  const Box box = bounding_box(result.balls);
-  result.report.lower = box.lower;
-  result.report.upper = box.upper;
+  result.report.survivors = std::max(result.report.survivors, static_cast<std::int64_t>(found.balls.size()));
+  PartMonitor last(monitor, minimal ? 0.6 : 1, 1);
+  result.balls = keep(std::move(found), options.keep, UnionOf::discs, result.report, last);
   return result;
 }
 

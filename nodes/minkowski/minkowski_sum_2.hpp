@@ -15,6 +15,7 @@ enum class MinkowskiAlgorithm2 {
 
 struct MinkowskiSum2Options {
   MinkowskiAlgorithm2 algorithm = MinkowskiAlgorithm2::filtered;
+  MinkowskiKeep keep = MinkowskiKeep::contributing;
 };
 
 /// How far the polygons that the discs stand for (a of the comparison) are from a polygon inside the union of
@@ -32,7 +33,8 @@ struct MinkowskiSum2 {
 };
 
 /// minkowski_sum of balls with z = 0: the same balls, from a triangulation of the plane.
-/// `touching_boundary` counts discs with an arc of their circle on the outline of the union.
+/// `touching_boundary` counts discs with an arc of their circle on the outline of the union, and what is kept
+/// as `minimal` has the same union in the plane: in space the balls may need more.
 /// No point of the boundary of the sum of the polygons is farther than the error_bound of the report from the
 /// sum of the unions: it is p + q with p and q on the boundaries of both, whose distances from a polygon
 /// inside the union were compared (a_to_b_at_most); see error_bound. Unknown where nothing was compared.

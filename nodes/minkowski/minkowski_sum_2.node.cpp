@@ -11,6 +11,7 @@ namespace ballflow::nodes {
 namespace {
 
 using geometry::MinkowskiAlgorithm2;
+using geometry::MinkowskiKeep;
 using geometry::MinkowskiSum2Options;
 
 struct MinkowskiSum2 {
@@ -21,7 +22,7 @@ struct MinkowskiSum2 {
   MinkowskiSum2Options options;
 
   static void declare(NodeDecl<MinkowskiSum2>& d) {
-    d.id("MinkowskiSum2", 1).summary("The Minkowski sum of two unions of discs: again a union of discs.");
+    d.id("MinkowskiSum2", 2).summary("The Minkowski sum of two unions of discs: again a union of discs.");
     d.doc(
         "As MinkowskiSum, of balls with z = 0, and the same balls, from a triangulation of the plane: the "
         "sums "
@@ -49,8 +50,9 @@ struct MinkowskiSum2 {
             "without it a stands for itself");
     d.input("b_comparison", &MinkowskiSum2::b_comparison).optional().doc("the same of b");
     d.output("balls", &MinkowskiSum2::balls)
-        .doc("the contributing sums, ascending by x, y of the center, z = 0");
-    d.output("report", &MinkowskiSum2::report).doc("numbers of pairs and discs, bounding box, error bound");
+        .doc("the sums that are kept, ascending by x, y of the center, z = 0");
+    d.output("report", &MinkowskiSum2::report)
+        .doc("numbers of pairs, of discs that contribute, are needed and visible; bounding box, error bound");
     d.choice(
          "algorithm", &MinkowskiSum2::options, &MinkowskiSum2Options::algorithm,
          {{MinkowskiAlgorithm2::filtered, "filtered",
@@ -60,6 +62,12 @@ struct MinkowskiSum2 {
            "passes by pairs below nodes of a quadtree whose discs around all contribute nothing: algo_h of "
            "the thesis, without inserting and removing them"}})
         .doc("how the sums are found; the discs are the same");
+    d.choice("keep", &MinkowskiSum2::options, &MinkowskiSum2Options::keep,
+             {{MinkowskiKeep::contributing, "contributing", "all sums that contribute"},
+              {MinkowskiKeep::minimal, "minimal",
+               "a part of them with the same union in the plane, of which no disc can go (see MinimalUnion); "
+               "takes longer"}})
+        .doc("which sums are kept; the union is the same");
   }
 
   void run(RunContext& context) {

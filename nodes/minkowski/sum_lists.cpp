@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -16,25 +14,6 @@
 #include "minkowski/containment_filter.hpp"
 
 namespace ballflow::geometry {
-
-void require_usable(const Balls& balls, const char* name) {
-  if (const std::string broken = broken_invariant(balls); !broken.empty()) {
-    throw InputError("input " + std::string(name) + ": " + broken, "repair or remove the ball");
-  }
-  const auto usable = [](double x) { return x == 0 || (std::abs(x) >= 1e-150 && std::abs(x) <= 1e150); };
-  for (std::size_t i = 0; i < balls.size(); ++i) {
-    const Vec3 c = balls.centers[i];
-    for (const double x : {c.x, c.y, c.z, balls.radii[i]}) {
-      if (usable(x)) continue;
-      char text[32];
-      std::snprintf(text, sizeof text, "%g", x);
-      throw InputError("input " + std::string(name) + ": ball " + std::to_string(i) +
-                           " has the coordinate or radius " + text +
-                           ", whose square leaves the range of doubles",
-                       "scale both inputs, or set tiny numbers to 0");
-    }
-  }
-}
 
 namespace {
 
@@ -125,6 +104,8 @@ std::vector<Ball> filtered_sums(const Sums& sums, double bytes_per_sum, Monitor&
   return all;
 }
 
+namespace {
+
 Balls canonical(std::vector<Ball> sums) {
   std::sort(sums.begin(), sums.end(), [](const Ball& a, const Ball& b) { return a.center < b.center; });
   std::vector<Vec3> centers;
@@ -136,6 +117,23 @@ Balls canonical(std::vector<Ball> sums) {
     radii.push_back(sum.radius);
   }
   return {std::move(centers), std::move(radii), {}, {}};
+}
+
+}  // namespace
+
+Balls keep(Contributing found, MinkowskiKeep what, UnionOf of, MinkowskiReport& report, Monitor& monitor) {
+  report.contributing = static_cast<std::int64_t>(found.balls.size());
+  report.touching_boundary = found.touching_boundary;
+  Balls balls = canonical(std::move(found.balls));
+  if (what == MinkowskiKeep::minimal) {
+    balls = select(balls, minimal_of_contributing(balls, {of}, monitor).kept);
+    report.minimal = static_cast<std::int64_t>(balls.size());
+  }
+  report.count = static_cast<std::int64_t>(balls.size());
+  const Box box = bounding_box(balls);
+  report.lower = box.lower;
+  report.upper = box.upper;
+  return balls;
 }
 
 }  // namespace ballflow::geometry

@@ -1,5 +1,5 @@
-// What the sums in space and in the plane have in common: which inputs are usable, lists of sums that fit
-// into memory, the order of results.
+// What the sums in space and in the plane have in common: lists of sums that fit into memory, the order of
+// results, and what is kept of them.
 #pragma once
 
 #include <cstdint>
@@ -7,12 +7,12 @@
 
 #include "base/memory.hpp"
 #include "base/monitor.hpp"
+#include "minkowski/minkowski_sum.hpp"
+#include "minkowski/power_triangulation.hpp"
 #include "minkowski/sums.hpp"
+#include "power/minimal_union.hpp"
 
 namespace ballflow::geometry {
-
-/// Refuses balls that break their invariants, and numbers that are not 0 and outside [1e-150, 1e150].
-void require_usable(const Balls& balls, const char* name);
 
 /// Refuses `sums`, or `more` than that, which would have to be triangulated at so many bytes each, when the
 /// memory or 32-bit indices do not hold them.
@@ -28,7 +28,7 @@ std::vector<Ball> all_sums(const Sums& sums, double bytes_per_sum, Monitor& moni
 /// is that to a ball that does.
 std::vector<Ball> filtered_sums(const Sums& sums, double bytes_per_sum, Monitor& monitor);
 
-/// The sums, ascending by center.
-Balls canonical(std::vector<Ball> sums);
+/// The balls of a result, ascending by center, of what contributes; fills in what the report says of them.
+Balls keep(Contributing found, MinkowskiKeep what, UnionOf of, MinkowskiReport& report, Monitor& monitor);
 
 }  // namespace ballflow::geometry

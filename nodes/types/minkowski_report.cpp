@@ -85,8 +85,12 @@ std::string why_not_one_sided(const MinkowskiReport& r) {
 
 std::string broken_invariant(const MinkowskiReport& r) {
   if (r.touching_boundary < 0) return "the number of balls on the boundary is negative";
-  if (r.touching_boundary > r.count) return "more balls are on the boundary than contribute";
-  if (r.count > r.survivors) return "more balls contribute than were triangulated";
+  if (r.touching_boundary > r.count) return "more balls are on the boundary than are kept";
+  if (r.minimal < -1) return "the number of balls that are needed is below -1";
+  if (r.count != (r.minimal < 0 ? r.contributing : r.minimal))
+    return "the balls of the result are neither those that contribute nor those that are needed";
+  if (r.count > r.contributing) return "more balls are kept than contribute";
+  if (r.contributing > r.survivors) return "more balls contribute than were triangulated";
   if (r.survivors > r.pairs) return "more balls were triangulated than there are pairs";
   if (r.count == 0 && r.pairs > 0) return "no ball contributes";
   if (!is_finite(r.lower) || !is_finite(r.upper)) return "the bounding box is not finite";

@@ -28,7 +28,10 @@ struct MinkowskiReport {
   std::int64_t pairs = 0;  // |A| * |B|
   std::int64_t survivors =
       0;  // sums that had to be triangulated; algorithm memory: that were still vertices at the end
-  std::int64_t count = 0;  // sums that contribute
+  std::int64_t count = 0;  // balls of the result: the sums that contribute, or the smallest part of them
+  std::int64_t contributing = 0;  // sums that contribute
+  // Those of an inclusion-minimal part of them with the same union; -1: nobody asked.
+  std::int64_t minimal = -1;
   // Contributing sums with a piece of their sphere, for radius 0 their point, on the boundary of the union.
   std::int64_t touching_boundary = 0;
   Vec3 lower, upper;  // of the bounding box of the union, model units; 0 for no balls

@@ -16,12 +16,16 @@ SummaryValue words_or_null(const std::string& words) {
 
 void TypeOf<geometry::MinkowskiReport>::declare(TypeDecl<geometry::MinkowskiReport>& d) {
   using T = geometry::MinkowskiReport;
-  d.id("MinkowskiReport", 3).doc("What the Minkowski sum of two sets of balls came to.");
+  d.id("MinkowskiReport", 4).doc("What the Minkowski sum of two sets of balls came to.");
   d.scalar("pairs", &T::pairs).doc("pairs of balls");
   d.scalar("survivors", &T::survivors)
       .doc("sums of pairs that were triangulated; of algorithm memory: that were vertices at the end");
-  d.scalar("count", &T::count).doc("sums that contribute");
-  d.scalar("touching_boundary", &T::touching_boundary).doc("of these, on the boundary of the union");
+  d.scalar("count", &T::count).doc("balls of the result: the sums that contribute, or the smallest part");
+  d.scalar("contributing", &T::contributing).doc("sums that contribute");
+  d.scalar("minimal", &T::minimal)
+      .doc("sums in the smallest part of these with the same union; -1: nobody asked for it");
+  d.scalar("touching_boundary", &T::touching_boundary)
+      .doc("contributing sums on the boundary of the union, all of which are needed");
   d.scalar("lower", &T::lower).doc("corner of the bounding box of the union, model units");
   d.scalar("upper", &T::upper).doc("the opposite corner");
   d.scalar("error_bound", &T::error_bound)
@@ -38,8 +42,11 @@ void TypeOf<geometry::MinkowskiReport>::declare(TypeDecl<geometry::MinkowskiRepo
   d.scalar("a_inside", &T::a_inside).doc("no ball reaches out of the solid a: as before");
   d.scalar("b_inside", &T::b_inside).doc("the same of b");
   d.summary("pairs", "pairs of balls").summary("survivors", "sums of pairs that were triangulated");
-  d.summary("count", "sums that contribute: the balls of the result");
-  d.summary("touching_boundary", "of these, have a piece of their sphere on the boundary of the union");
+  d.summary("count", "balls of the result: the sums that contribute, or the smallest part of them");
+  d.summary("contributing", "sums that contribute to the union");
+  d.summary("minimal",
+            "sums in an inclusion-minimal part of these with the same union; null when nobody asked for it");
+  d.summary("touching_boundary", "sums with a piece of their sphere on the boundary of the union: needed");
   d.summary("bbox", "bounding box of the union, model units; null when it is empty");
   d.summary(
       "error_bound",
@@ -60,6 +67,8 @@ void TypeOf<geometry::MinkowskiReport>::declare(TypeDecl<geometry::MinkowskiRepo
         {"pairs", v.pairs},
         {"survivors", v.survivors},
         {"count", v.count},
+        {"contributing", v.contributing},
+        {"minimal", v.minimal < 0 ? SummaryValue(nullptr) : SummaryValue(v.minimal)},
         {"touching_boundary", v.touching_boundary},
         {"bbox", box_summary(box)},
         {"error_bound", v.error_bound < 0 ? SummaryValue(nullptr) : SummaryValue(v.error_bound)},

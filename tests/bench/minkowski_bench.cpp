@@ -5,6 +5,7 @@
 //
 //   bench_minkowski             # all sizes; a few minutes
 //   bench_minkowski 400k 3      # those whose names begin so, three repetitions
+//   bench_minkowski write DIR   # the balls of 4M ear + knot as text: tests/data/minkowski, packed with xz -9
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Regular_triangulation_3.h>
 #include <CGAL/Regular_triangulation_cell_base_3.h>
@@ -156,9 +157,9 @@ Result measure(const std::function<void(Result&)>& work) {
   return {numbers[0], numbers[1], numbers[2], numbers[3], numbers[4]};
 }
 
-Result sum(const Balls& a, const Balls& b, MinkowskiAlgorithm algorithm) {
+Result sum(const Balls& a, const Balls& b, const MinkowskiSumOptions& options) {
   return measure([&](Result& result) {
-    const MinkowskiReport report = minkowski_sum(a, b, {.algorithm = algorithm}).report;
+    const MinkowskiReport report = minkowski_sum(a, b, options).report;
     result.survivors = static_cast<double>(report.survivors);
     result.count = static_cast<double>(report.count);
     result.touching = static_cast<double>(report.touching_boundary);
@@ -227,19 +228,43 @@ void report(const Case& size, int repetitions) {
         Algorithm{"hierarchical", MinkowskiAlgorithm::hierarchical}}) {
     if (value == MinkowskiAlgorithm::memory && a.size() * b.size() > 1'000'000) continue;  // minutes
     const Result r = best_of(value == MinkowskiAlgorithm::memory ? 1 : repetitions,
-                             [&, algorithm = value] { return sum(a, b, algorithm); });
+                             [&, algorithm = value] { return sum(a, b, {.algorithm = algorithm}); });
     std::printf(
         "  %-10s %8.2f s %6.0f MB  %9.0f survivors %8.0f contribute %7.0f on the boundary  %.2f x CGAL, %.2f "
         "x bare\n",
         name, r.seconds, r.megabytes, r.survivors, r.count, r.touching, r.seconds / with_index.seconds,
         r.seconds / bare.seconds);
   }
+  const Result least = sum(a, b, {.keep = MinkowskiKeep::minimal});
+  std::printf("  minimal    %8.2f s %6.0f MB  %8.0f are needed\n", least.seconds, least.megabytes,
+              least.count);
+}
+
+/// x y z r in a line, such that reading gives the same doubles.
+void write(const Model& model, const std::string& file) {
+  const Balls balls = make(model);
+  std::FILE* out = std::fopen(file.c_str(), "w");
+  if (out == nullptr) {
+    std::printf("%s cannot be written\n", file.c_str());
+    std::exit(1);
+  }
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    const Vec3 c = balls.centers[i];
+    std::fprintf(out, "%.17g %.17g %.17g %.17g\n", c.x, c.y, c.z, balls.radii[i]);
+  }
+  std::fclose(out);
+  std::printf("%s: %zu balls\n", file.c_str(), balls.size());
 }
 
 }  // namespace
 }  // namespace ballflow::geometry
 
 int main(int argc, char** argv) {
+  if (argc > 2 && std::strcmp(argv[1], "write") == 0) {
+    ballflow::geometry::write(ballflow::geometry::ear, std::string(argv[2]) + "/inner_ear.xyzr");
+    ballflow::geometry::write(ballflow::geometry::knot, std::string(argv[2]) + "/knot.xyzr");
+    return 0;
+  }
   const std::string wanted = argc > 1 ? argv[1] : "";
   const int repetitions = argc > 2 ? std::atoi(argv[2]) : 3;
   double load[3] = {0, 0, 0};

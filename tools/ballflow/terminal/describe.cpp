@@ -114,8 +114,9 @@ std::string growth(const Json& s) {
 }
 
 std::string minkowski(const Json& s) {
-  std::string text = number(s, "pairs") + " pairs, " + number(s, "count") + " contribute, " +
-                     number(s, "touching_boundary") + " on the boundary";
+  std::string text = number(s, "pairs") + " pairs, " + number(s, "contributing") + " contribute, ";
+  if (s.at("minimal").is_number()) text += number(s, "minimal") + " are needed, ";
+  text += number(s, "touching_boundary") + " on the boundary";
   if (s.at("proven").is_string()) {
     const bool contains = s.at("proven").get<std::string>().starts_with("contains");
     text += contains ? ", contains A + B: proven" : ", inside A + B: proven";

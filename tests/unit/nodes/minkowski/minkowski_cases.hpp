@@ -34,6 +34,14 @@ inline Numbers numbers_of(const Balls& balls) {
   return numbers;
 }
 
+inline Numbers all_sums(const Numbers& a, const Numbers& b) {
+  Numbers sums;
+  for (const auto& p : a) {
+    for (const auto& q : b) sums.push_back({p[0] + q[0], p[1] + q[1], p[2] + q[2], p[3] + q[3]});
+  }
+  return sums;
+}
+
 /// Random sets of every kind that has no general position.
 class RandomBalls {
  public:

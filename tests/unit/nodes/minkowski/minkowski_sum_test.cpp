@@ -46,14 +46,6 @@ double least_power(Vec3 p, const Numbers& balls) {
   return least;
 }
 
-Numbers all_sums(const Numbers& a, const Numbers& b) {
-  Numbers sums;
-  for (const auto& p : a) {
-    for (const auto& q : b) sums.push_back({p[0] + q[0], p[1] + q[1], p[2] + q[2], p[3] + q[3]});
-  }
-  return sums;
-}
-
 /// All distinct sums that contribute among all others, by enumeration.
 Numbers contributing(const Numbers& a, const Numbers& b) {
   Numbers sums = all_sums(a, b);

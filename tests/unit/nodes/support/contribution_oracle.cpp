@@ -1,23 +1,18 @@
 #include "contribution_oracle.hpp"
 
-#include <CGAL/Exact_rational.h>
-
-#include <array>
 #include <optional>
 #include <vector>
 
+#include "exact_points.hpp"
+
 namespace ballflow::geometry::test {
 namespace {
-
-using Q = CGAL::Exact_rational;
-using Point = std::array<Q, 3>;
 
 struct Plane {
   Point n;
   Q b;  // the cell is n . y <= b
 };
 
-Q dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Point cross(const Point& a, const Point& b) {
   return {Q(a[1] * b[2] - a[2] * b[1]), Q(a[2] * b[0] - a[0] * b[2]), Q(a[0] * b[1] - a[1] * b[0])};
 }
@@ -26,7 +21,6 @@ Point combine(const Q& s, const Point& a, const Q& t, const Point& b, const Q& u
   for (std::size_t k = 0; k < 3; ++k) p[k] = s * a[k] + t * b[k] + u * c[k];
   return p;
 }
-bool is_zero(const Point& a) { return a[0] == 0 && a[1] == 0 && a[2] == 0; }
 
 std::optional<Point> intersection(const Plane& a, const Plane& b, const Plane& c) {
   const Point bc = cross(b.n, c.n), ca = cross(c.n, a.n), ab = cross(a.n, b.n);
