@@ -24,7 +24,7 @@ struct Bisect {
         "known from both sides, then by bisection in ratios. Warns when the number of balls jumps over what "
         "was asked for, and when no growth at all needs fewer. Refuses a cover that is not finished, and "
         "fails when the largest growth allowed still needs more balls.");
-    d.avoid_when("the error matters more than the number of balls: choose epsilon.");
+    d.avoid_when("the error matters more than the number of balls: BisectError, or choose epsilon.");
     d.cites("kornberger2010", "3.5 and 3.6");
     d.memory(1 << 20, 0);
     d.input("search", &Bisect::search).optional().doc("the state before; absent at the beginning");

@@ -3,6 +3,7 @@
 
 namespace ballflow::nodes {
 const bf_node* bisect_entry();
+const bf_node* bisect_error_entry();
 const bf_node* cover_matrix_entry();
 const bf_node* cover_points_entry();
 const bf_node* load_cover_entry();
@@ -18,6 +19,7 @@ const bf_node* verify_cover_entry();
 BALLFLOW_PLUGIN("cover", "0.1.0",
                 (std::vector<const bf_node*>{
                     ballflow::nodes::bisect_entry(),
+                    ballflow::nodes::bisect_error_entry(),
                     ballflow::nodes::cover_matrix_entry(),
                     ballflow::nodes::cover_points_entry(),
                     ballflow::nodes::load_cover_entry(),

@@ -55,7 +55,8 @@ class Growing {
       const double growth = growth_for(part);
       if (growth <= 0) continue;
       double least = 0;
-      for (const Vec3 corner : part) least = std::max(least, growth_for({corner, corner, corner}));
+      for (std::size_t k = 0; k < 3 && growth > least + tolerance_; ++k)
+        least = std::max(least, growth_for({part[k], part[k], part[k]}));
       if (growth <= least + tolerance_ || parts >= most_parts) {
         result.push_back({part, growth});
         continue;

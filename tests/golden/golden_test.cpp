@@ -60,6 +60,8 @@ const std::vector<Case>& cases() {
       {"minkowski_sum_outer", "minkowski_sum",
        as_in_the_thesis({{"a", "shape:torus?n=1000"}, {"b", "shape:box?n=500&R=0.3"}, {"mode", "outer"}}),
        kNoTopology},
+      {"torus_error", "one_sided", as_in_the_thesis({{"input", "shape:torus?n=1500"}, {"max_error", "0.06"}}),
+       kNoTopology},
       {"3cross_offset_inner", "offset",
        as_in_the_thesis({{"input", "shape:3cross?n=2000"}, {"mode", "inner"}}), kNoTopology},
       {"box_dmt", "dmt", of_vertices({{"input", "shape:box?n=2000"}}), kNoTopology},

@@ -212,7 +212,11 @@ std::string describe(const OutputEntry& output) {
       {"Growth", growth},
       {"Bisection",
        [](const Json& s) {
-         return "growth " + rounded(s, "value") + " after " + counted(s, "tried", "trial");
+         if (s.at("tried") == 0) return "growth " + rounded(s, "value") + ", as asked for";
+         std::string text = "growth " + rounded(s, "value") + " after " + counted(s, "tried", "trial");
+         if (s.contains("error") && s.at("error").is_number())
+           text += ", error at most " + rounded(s, "error");
+         return text;
        }},
       {"LocalFeatureSize",
        [](const Json& s) {
