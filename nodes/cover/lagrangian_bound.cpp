@@ -24,7 +24,8 @@ using Units = std::vector<std::int64_t>;  // of 1 / price_unit
 /// the same order: the additions of one sum wait for each other, and the result must not depend on how many
 /// the machine does at once. Rows of like length follow each other, near where they were, and every rest has
 /// three entries, so that a loop ends where the one before it did: nobody can foresee the ends of others.
-/// Columns have 16 bits where that is enough: the entries are read from the memory again and again.
+/// Columns have 16 bits where that is enough: the entries are read from the memory again and again. Blocks of
+/// rows are summed in parallel, each row by one thread.
 template <class Number>
 class RowSums {
  public:
@@ -37,24 +38,47 @@ class RowSums {
       const auto end = order.begin() + static_cast<std::ptrdiff_t>(std::min(first + window, order.size()));
       std::stable_sort(begin, end, [&](std::int32_t x, std::int32_t y) { return fours(x) < fours(y); });
     }
+    blocks_.push_back({0, 0});
     for (const std::int32_t i : order) {
       const auto row = rows[static_cast<std::size_t>(i)];
       look(row.size());
+      if (entries_.size() - blocks_.back().entry >= entries_of_block) {
+        blocks_.push_back({rows_.size(), entries_.size()});
+      }
       for (const std::int32_t c : row) {
         entries_.push_back(static_cast<Number>(c));
       }
       entries_.resize(entries_.size() + (3 - row.size() % 4), static_cast<Number>(columns));
       rows_.push_back({i, static_cast<std::int32_t>(fours(i))});
     }
+    blocks_.push_back({rows_.size(), entries_.size()});
   }
 
   /// `values` has one element more than there are columns, a zero.
-  void operator()(const Reals& values, Reals& sums, Lookout& look) const {
-    const Number* at = entries_.data();
+  void operator()(const Reals& values, Reals& sums, Monitor& monitor) const {
+    tbb::parallel_for(std::size_t{1}, blocks_.size(), [&](std::size_t b) {
+      if (monitor.cancelled()) throw Cancelled();
+      sum_block(blocks_[b - 1], blocks_[b], values, sums);
+    });
+  }
+
+ private:
+  static constexpr std::size_t window = 512;  // rows that are sorted by their lengths
+  static constexpr std::size_t entries_of_block = std::size_t{1} << 15;  // a few microseconds of work
+
+  struct Row {
+    std::int32_t number, fours;
+  };
+  struct Place {
+    std::size_t row, entry;
+  };
+
+  void sum_block(Place begin, Place end, const Reals& values, Reals& sums) const {
+    const Number* at = entries_.data() + begin.entry;
     const float* const u = values.data();
-    for (const Row& row : rows_) {
+    for (std::size_t k = begin.row; k < end.row; ++k) {
       float a = 0, b = 0, c = 0, d = 0;
-      for (std::int32_t four = 0; four < row.fours; ++four, at += 4) {
+      for (std::int32_t four = 0; four < rows_[k].fours; ++four, at += 4) {
         a += u[at[0]];
         b += u[at[1]];
         c += u[at[2]];
@@ -64,19 +88,13 @@ class RowSums {
       a += u[at[1]];
       a += u[at[2]];
       at += 3;
-      sums[static_cast<std::size_t>(row.number)] = (a + b) + (c + d);
-      look(static_cast<std::size_t>(row.fours) * 4 + 3);
+      sums[static_cast<std::size_t>(rows_[k].number)] = (a + b) + (c + d);
     }
   }
 
- private:
-  static constexpr std::size_t window = 512;  // rows that are sorted by their lengths
-
-  struct Row {
-    std::int32_t number, fours;
-  };
   std::vector<Row> rows_;
   std::vector<Number> entries_;  // one row after another: fours, then three of the rest
+  std::vector<Place> blocks_;    // where each begins, and the end of the last
 };
 
 double sum(std::span<const float> values) {
@@ -133,7 +151,7 @@ Reals climb(const Part& part, const LagrangianBoundOptions& options, Monitor& mo
   for (std::int64_t t = 0; t < options.iterations; ++t) {
     if (monitor.cancelled()) throw Cancelled();
     double bound = sum({u.data(), columns});
-    row_sums(u, loads, look);
+    row_sums(u, loads, monitor);
     for (const std::int32_t row : take_excess(loads, bound, loaded, changed)) {
       const auto i = static_cast<std::size_t>(row);
       look(part.rows.degree(i));

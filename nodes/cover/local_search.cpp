@@ -10,8 +10,8 @@
 
 #include "cover/components.hpp"
 #include "cover/greedy_rows.hpp"
+#include "cover/region_search.hpp"
 #include "cover/residual.hpp"
-#include "cover/weighting_search.hpp"
 
 namespace ballflow::geometry {
 namespace {
@@ -61,20 +61,19 @@ class Searches {
       for (const std::int32_t i : cover) rows_[k].push_back(part.row_ids[static_cast<std::size_t>(i)]);
       const std::int64_t bound = bound_of(k);
       if (static_cast<std::int64_t>(cover.size()) <= bound) return;
-      searches_[k].search =
-          std::make_unique<WeightingSearch>(std::move(part), cover, bound, seed_ + k, monitor);
+      searches_[k] = std::make_unique<RegionSearch>(std::move(part), cover, bound, seed_ + k, monitor);
     });
   }
 
   bool finished() const {
     return std::none_of(searches_.begin(), searches_.end(),
-                        [](const auto& s) { return s.search != nullptr; });
+                        [](const auto& search) { return search != nullptr; });
   }
 
   /// Rows of the components that are still searched.
   double searched_rows() const {
     double rows = 0;
-    for (const auto& s : searches_) rows += s.search ? static_cast<double>(s.search->part().rows.size()) : 0;
+    for (const auto& search : searches_) rows += search ? static_cast<double>(search->part().rows.size()) : 0;
     return rows;
   }
 
@@ -82,18 +81,20 @@ class Searches {
   double searched_gap() const {
     std::int64_t balls = 0, bound = 0;
     for (std::size_t k = 0; k < searches_.size(); ++k) {
-      if (!searches_[k].search) continue;
+      if (!searches_[k]) continue;
       balls += static_cast<std::int64_t>(rows_[k].size());
       bound += bound_of(k);
     }
     return static_cast<double>(balls - bound) / static_cast<double>(std::max<std::int64_t>(bound, 1));
   }
 
-  /// Components share `steps` in proportion to their rows.
+  /// Components share `steps` in proportion to their rows; those that begin with regions make half of theirs.
   void plan(double steps) {
     const double rows = searched_rows();
-    for (auto& s : searches_) {
-      if (s.search) s.steps = steps * static_cast<double>(s.search->part().rows.size()) / rows;
+    for (const auto& search : searches_) {
+      if (!search) continue;
+      const double all = search->begins_with_regions() ? steps / 2 : steps;
+      search->plan(all * static_cast<double>(search->part().rows.size()) / rows);
     }
   }
 
@@ -101,7 +102,7 @@ class Searches {
   /// about which the certificate says nothing, are searched no more.
   void narrow(double steps_per_row, double work, double max_steps, Monitor& monitor) {
     tbb::parallel_for(std::size_t{0}, searches_.size(), [&](std::size_t k) {
-      auto& [search, steps] = searches_[k];
+      auto& search = searches_[k];
       if (!search) return;
       if (rows_[k].size() > most_balls_of_core || price_of(k) == 0) {
         search.reset();
@@ -109,20 +110,22 @@ class Searches {
       }
       std::vector<std::int32_t> cover;
       Part part = core(k, search->part(), search->best(), cover, monitor);
-      steps = std::min({steps_per_row * static_cast<double>(search->part().rows.size()), max_steps,
-                        work / visited(part.rows.entries.size(), part.rows.size(), part.columns.size())});
+      const double steps =
+          std::min({steps_per_row * static_cast<double>(search->part().rows.size()), max_steps,
+                    work / visited(part.rows.entries.size(), part.rows.size(), part.columns.size())});
       const std::int64_t forget = mean_weight_of_core * static_cast<std::int64_t>(part.columns.size());
-      search = std::make_unique<WeightingSearch>(std::move(part), cover, bound_of(k), seed_ + k, monitor,
-                                                 std::min(forget, WeightingSearch::most_weight));
+      search = std::make_unique<RegionSearch>(std::move(part), cover, bound_of(k), seed_ + k, monitor,
+                                              std::min(forget, WeightingSearch::most_weight));
+      search->plan(steps);
     });
   }
 
   /// Makes the fraction `share` of the steps planned for each search that is not finished.
   void run(double share, Monitor& monitor) {
     tbb::parallel_for(std::size_t{0}, searches_.size(), [&](std::size_t k) {
-      auto& [search, steps] = searches_[k];
+      auto& search = searches_[k];
       if (!search) return;
-      search->run(static_cast<std::int64_t>(steps * share) + 1, monitor);
+      search->run(share, monitor);
       if (search->best().size() < rows_[k].size()) {
         rows_[k].clear();
         for (const std::int32_t i : search->best()) {
@@ -149,11 +152,6 @@ class Searches {
  private:
   static constexpr std::size_t most_balls_of_core = 200;
   static constexpr std::int64_t mean_weight_of_core = 500;
-
-  struct Search {
-    std::unique_ptr<WeightingSearch> search;  // none: finished
-    double steps = 0;
-  };
 
   std::int64_t price_of(std::size_t k) const {
     std::int64_t sum = 0;
@@ -198,8 +196,8 @@ class Searches {
   Parts parts_;
   std::vector<std::int64_t> prices_;  // of the columns of the matrix
   std::uint64_t seed_;
-  std::vector<std::vector<std::int32_t>> rows_;  // best cover of each component
-  std::vector<Search> searches_;
+  std::vector<std::vector<std::int32_t>> rows_;          // best cover of each component
+  std::vector<std::unique_ptr<RegionSearch>> searches_;  // none: finished
 };
 
 double number_of_steps(const CoverState& state, double rows, const LocalSearchOptions& options) {

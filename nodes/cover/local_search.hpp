@@ -34,13 +34,16 @@ struct LocalSearchOptions {
 /// that is less, both times (balls - bound) / bound of all components whose cover is not proven the least.
 /// Components without prices have no core.
 ///
+/// Components whose greedy cover has more than 600 balls begin with regions of it, all at once, and end with
+/// a search of the whole; they make half as many steps, which find as few balls (region_search.hpp).
+///
 /// - A step takes about a microsecond, in dense matrices a few. The first search makes steps_per_ball * rows
 ///   steps, or work_per_ball * rows / (mean length of rows + mean length of columns) if that is less; at
 ///   least min_steps and at most max_steps. Components share them in proportion to their rows. No clock:
 ///   equal input gives equal balls.
 /// - A component whose balls are as few as the prices of its samples prove stops at once (run
 ///   lagrangian_bound before), and everything stops when the gap is at most target_gap.
-/// - Components are searched in parallel; the result does not depend on the number of threads.
+/// - Components and regions are searched in parallel; the result does not depend on the number of threads.
 /// - The lower bound stays what it was.
 CoverState local_search(const CoverState& state, const LocalSearchOptions& options = {},
                         Monitor& monitor = no_monitor());

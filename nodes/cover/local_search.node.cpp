@@ -15,13 +15,16 @@ struct LocalSearch {
   LocalSearchOptions options;
 
   static void declare(NodeDecl<LocalSearch>& d) {
-    d.id("LocalSearch", 2).summary("Cover what is left by few balls: greedy, then local search.");
+    d.id("LocalSearch", 3).summary("Cover what is left by few balls: greedy, then local search.");
     d.doc(
         "Row-weighting local search on every connected component, then once more with the balls of small "
-        "reduced cost where at most 200 balls cover a component. Ends early where the certificate proves "
-        "that fewer balls are impossible, so run LagrangianBound before. The number of steps is limited, not "
-        "the "
-        "time: equal input gives equal balls.");
+        "reduced cost where at most 200 balls cover a component. Where more than 600 balls are needed the "
+        "first "
+        "half of the steps goes to regions of the cover, all at once, the second half to the whole. Ends "
+        "early "
+        "where the certificate proves that fewer balls are impossible, so run LagrangianBound before. The "
+        "number "
+        "of steps is limited, not the time: equal input gives equal balls.");
     d.avoid_when("nothing was reduced: the search then spends its steps on dominated balls.");
     d.cites("gao2015", "3");
     d.input("cover", &LocalSearch::cover).doc("any state of a set covering computation, best after Reduce");
@@ -29,7 +32,10 @@ struct LocalSearch {
     d.param("steps_per_ball", &LocalSearch::options, &LocalSearchOptions::steps_per_ball)
         .unit("steps")
         .at_least(0)
-        .doc("steps for each ball that is left in the matrix; a step takes a microsecond or a few");
+        .doc(
+            "steps for each ball that is left in the matrix, half of it where regions are searched; a step "
+            "takes "
+            "a microsecond or a few");
     d.param("work_per_ball", &LocalSearch::options, &LocalSearchOptions::work_per_ball)
         .unit("matrix entries")
         .at_least(0)

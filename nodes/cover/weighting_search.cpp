@@ -53,7 +53,8 @@ WeightingSearch::FullLists::FullLists(const Csr& lists, const std::vector<Id>& r
 }
 
 WeightingSearch::WeightingSearch(Part part, const std::vector<std::int32_t>& cover, std::int64_t bound,
-                                 std::uint64_t seed, Monitor& monitor, std::int64_t weight_limit)
+                                 std::uint64_t seed, Monitor& monitor, std::int64_t weight_limit,
+                                 std::span<const std::int32_t> weights)
     : part_(std::move(part)),
       bound_(bound),
       random_(seed),
@@ -70,13 +71,21 @@ WeightingSearch::WeightingSearch(Part part, const std::vector<std::int32_t>& cov
       least_slot_(least_key_.size(), -1),
       best_(cover) {
   Lookout look(monitor);
-  const NearOrder near = near_order(part_.rows, part_.columns, monitor);
+  NearOrder near = near_order(part_.rows, part_.columns, monitor);
   rows_ = {part_.rows, near.row_rank, near.column_rank, look};
   columns_ = {part_.columns, near.column_rank, near.row_rank, look};
   number_ = inverse(near.row_rank);
   keepers_.back() = Keepers(always);
-  weight_sum_ = static_cast<std::int64_t>(states_.size());
-  last_tick_ = static_cast<std::int32_t>(most_weight / std::max<std::int64_t>(weight_sum_, 1));
+  last_tick_ = static_cast<std::int32_t>(most_weight / std::max<std::int64_t>(states_.size(), 1));
+  for (std::size_t c = 0; c < weights.size(); ++c) states_[at(near.column_rank[c])].weight = weights[c];
+  const auto sum_weights = [&] {
+    weight_sum_ = 0;
+    for (const State& column : states_) weight_sum_ += column.weight;
+    return weight_sum_;
+  };
+  while (sum_weights() >= weight_limit_ && weight_sum_ > static_cast<std::int64_t>(states_.size())) {
+    for (State& column : states_) column.weight = (column.weight + 1) / 2;
+  }
   uncovered_.reserve(states_.size());
   for (std::size_t c = 0; c < states_.size(); ++c) {
     states_[c].place = static_cast<Id>(c);
@@ -85,7 +94,7 @@ WeightingSearch::WeightingSearch(Part part, const std::vector<std::int32_t>& cov
   std::size_t longest = 0;
   for (std::size_t i = 0; i < number_.size(); ++i) {
     longest = std::max(longest, rows_.full(i).size());
-    for (std::size_t k = 0; k < rows_.length(i); ++k) gains_[i] += Gain(1);
+    for (const Id c : rows_.full(i).first(rows_.length(i))) gains_[i] += Gain(states_[at(c)].weight);
   }
   first_.resize(longest + 1);
   second_.resize(longest + 1);
@@ -95,6 +104,17 @@ WeightingSearch::WeightingSearch(Part part, const std::vector<std::int32_t>& cov
   for (std::size_t s = cover.size(); s > 0; --s) free_.push_back(static_cast<Id>(s - 1));
   std::sort(best_.begin(), best_.end());
   for (const Id row : best_) add(near.row_rank[at(row)], look);
+  rank_of_column_ = std::move(near.column_rank);
+}
+
+std::vector<std::int32_t> WeightingSearch::weights() const {
+  std::vector<std::int32_t> result;
+  result.reserve(states_.size());
+  for (const Id c : rank_of_column_) {
+    const bool uncovered = keepers_[at(c)].times() == 0;
+    result.push_back(states_[at(c)].weight + (uncovered ? tick_ : 0));
+  }
+  return result;
 }
 
 void WeightingSearch::raise_key(Id slot, std::int64_t key) {

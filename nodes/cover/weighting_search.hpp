@@ -17,9 +17,11 @@ class WeightingSearch {
 
   /// `cover` is any cover of `part` without redundant rows, `bound` no more than the smallest one.
   /// Weights are halved when their sum reaches `weight_limit`, at most most_weight: a low limit lets the
-  /// search forget.
+  /// search forget. `weights` of the columns, at least 1, are those of earlier searches, halved until
+  /// their sum is below the limit; empty: all 1.
   WeightingSearch(Part part, const std::vector<std::int32_t>& cover, std::int64_t bound, std::uint64_t seed,
-                  Monitor& monitor, std::int64_t weight_limit = most_weight);
+                  Monitor& monitor, std::int64_t weight_limit = most_weight,
+                  std::span<const std::int32_t> weights = {});
 
   /// Goes on for `steps` steps, or until the best cover has `bound` rows. Not to be used after Cancelled.
   void run(std::int64_t steps, Monitor& monitor);
@@ -28,6 +30,8 @@ class WeightingSearch {
   /// The smallest cover met: rows of the part, ascending.
   const std::vector<std::int32_t>& best() const { return best_; }
   const Part& part() const { return part_; }
+  /// The weight of each column.
+  std::vector<std::int32_t> weights() const;
 
  private:
   using Id = std::int32_t;
@@ -118,7 +122,8 @@ class WeightingSearch {
   Part part_;
   // Rows and columns are numbered by near_order() from here on.
   FullLists rows_, columns_;
-  std::vector<Id> number_;  // of each row, in part_
+  std::vector<Id> number_;          // of each row, in part_
+  std::vector<Id> rank_of_column_;  // of each column of part_
   std::int64_t bound_;
   std::uint64_t random_;
   std::int32_t step_ = 0;
