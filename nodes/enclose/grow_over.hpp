@@ -10,7 +10,8 @@ namespace ballflow::geometry {
 
 /// Raises radii so that every triangle is cut into parts that lie in one ball each. A part asks for the
 /// least growth with which one ball holds its corners. Triangles are bisected at their longest edge until
-/// parts ask for no more than `tolerance` above what one of their corners asks for; the parts that ask for
+/// parts ask for no more than `tolerance`, or 5 % of what the vertex asks for that asks for most, above what
+/// one of their corners asks for; the parts that ask for
 /// most choose first, each the ball that needs to grow least from where it is. No ball grows by more than the
 /// most that a part asks for.
 /// - Corners lie in their ball up to rounding: add a little to all radii.

@@ -24,7 +24,8 @@ struct OneSidedBallsOptions {
 ///   by 1e-9 of the longest edge of the box, and 2^-40 of the largest coordinate, against rounding.
 /// outer: radii begin with these (0 around centres outside; around those of an open mesh the distance or the
 ///   old radius, whichever is less). Triangles are bisected until the ball that holds a part with least
-///   growth grows by no more than a point of the part asks for and 0.02 % of the longest edge; parts are
+///   growth grows by no more than a point of the part asks for, and 0.02 % of the longest edge or 5 % of what
+///   the vertex asks for that asks for most; parts are
 ///   handed out to balls, those that need most growth first, and every ball grows as far as its parts ask
 ///   for. A part that lies in a ball by then needs none. No ball grows by more than the largest growth that
 ///   one part needs. A void that the union closes off gets a ball that touches the surface; these come last.

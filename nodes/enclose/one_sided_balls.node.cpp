@@ -18,7 +18,7 @@ struct OneSidedBalls {
   OneSidedBallsOptions options;
 
   static void declare(NodeDecl<OneSidedBalls>& d) {
-    d.id("OneSidedBalls", 1)
+    d.id("OneSidedBalls", 2)
         .summary("Give balls other radii, so that they lie inside a solid, or contain it.");
     d.doc(
         "Keeps the centres. Side inner: every radius becomes the distance of the centre from the surface; "

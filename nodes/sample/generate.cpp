@@ -8,6 +8,7 @@
 #include "base/circle.hpp"
 #include "io/text_cursor.hpp"
 #include "sample/block_mesh.hpp"
+#include "sample/frame_mesh.hpp"
 #include "sample/implicit_mesh.hpp"
 #include "sample/tube_mesh.hpp"
 
@@ -36,7 +37,10 @@ constexpr std::array table = {
     ShapeInfo{
         Shape::bracket, "bracket",
         "a sharp-edged L of two plates of length R, width 0.8 R and thickness r, with a square hole in one",
-        1, 10000, 1, 0.2, 0.4}};
+        1, 10000, 1, 0.2, 0.4},
+    ShapeInfo{Shape::frame, "frame",
+              "a cube of edge 2 R less a ball of radius r above R around its middle: its edges", 5, 10000, 1,
+              1.2, 1.4}};
 
 std::string number_text(double value) {
   std::string text = std::to_string(value);
@@ -184,6 +188,13 @@ TriangleMesh bracket(double r, std::int64_t n) {
   return of_blocks(blocks, n);
 }
 
+TriangleMesh frame(double r, std::int64_t n) {
+  if (!(r > 1.01))
+    throw InputError("frame: r is " + number_text(r) + " R",
+                     "r is above 1.01 R, so that the ball opens all sides of the cube");
+  return frame_mesh(r, n);
+}
+
 TriangleMesh unit_mesh(Shape shape, double r, std::int64_t n, Monitor& monitor) {
   switch (shape) {
     case Shape::sphere:
@@ -204,6 +215,8 @@ TriangleMesh unit_mesh(Shape shape, double r, std::int64_t n, Monitor& monitor) 
       return box(r, n);
     case Shape::bracket:
       return bracket(r, n);
+    case Shape::frame:
+      return frame(r, n);
   }
   throw std::logic_error("a shape without a formula");
 }

@@ -13,7 +13,7 @@
 
 namespace ballflow::geometry {
 
-enum class Shape { sphere, torus, double_torus, torus_balls, cross, knot, s_tube, box, bracket };
+enum class Shape { sphere, torus, double_torus, torus_balls, cross, knot, s_tube, box, bracket, frame };
 
 struct ShapeOptions {
   Shape shape = Shape::torus;

@@ -98,6 +98,26 @@ TEST(generate, volumes_approach_the_formulas) {
   EXPECT_NEAR(volume(generate(parse_shape("box?R=2&r=0.5&n=500"))), 16, 1e-12);
   EXPECT_NEAR(volume(generate(parse_shape("bracket?r=0.2&n=500"))),
               0.8 * 0.2 + 0.8 * 0.8 * 0.2 - 0.4 * 0.4 * 0.2, 1e-12);
+  // A cube less a ball that has lost six caps.
+  const double r = 1.2, cap = pi * (r - 1) * (r - 1) * (2 * r + 1) / 3;
+  EXPECT_NEAR(volume(generate(parse_shape("frame?n=20000"))), 8 - (4 * pi / 3 * r * r * r - 6 * cap), 2e-3);
+}
+
+TEST(generate, the_frame_is_one_of_every_size_and_its_vertices_lie_on_cube_and_ball) {
+  for (int n : {50, 100, 333, 1000, 5000}) {
+    for (const char* r : {"1.02", "1.1", "1.2", "1.39"}) {
+      const TriangleMesh mesh =
+          generate(parse_shape("frame?r=" + std::string(r) + "&n=" + std::to_string(n)));
+      EXPECT_EQ(mesh_topology(mesh).genus, 5);
+      EXPECT_GT(volume(mesh), 0);
+      for (const Vec3 p : mesh.vertices) {
+        const double cube = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+        EXPECT_TRUE(cube == 1 || std::abs(length(p) - std::stod(r)) < 1e-14);
+        EXPECT_LE(cube, 1);
+        EXPECT_GE(length(p), std::stod(r) - 1e-14);
+      }
+    }
+  }
 }
 
 TEST(generate, the_double_torus_is_resolved_at_every_size) {
@@ -133,6 +153,8 @@ TEST(generate, refuses_sizes_out_of_range_and_says_which_are_in) {
   EXPECT_NE(error("torus?n=3"), "");
   EXPECT_NE(error("torus?n=6000000"), "");
   EXPECT_NE(error("sphere?r=1").find("r is not used"), std::string::npos);
+  EXPECT_NE(error("frame?r=1").find("r is above 1.01 R"), std::string::npos);
+  EXPECT_NE(error("frame?r=1.5").find("below 1.4 R"), std::string::npos);
   EXPECT_NE(error("torus?r=0.01&n=100").find("are too few"), std::string::npos);
   EXPECT_EQ(error("torus?"), "");
 }
