@@ -45,7 +45,6 @@ void add(std::vector<BallTreeNode>& nodes, std::vector<Ball> balls, std::size_t 
   Box box;
   for (const Ball& ball : balls) box.add(ball.center);
   if (balls.size() <= leaf_size || box.longest_edge() == 0 || depth == 60) {
-    balls.erase(largest);
     std::stable_sort(balls.begin(), balls.end(),
                      [](const Ball& a, const Ball& b) { return a.radius > b.radius; });
     nodes[here].balls = std::move(balls);

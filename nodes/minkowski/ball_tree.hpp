@@ -12,7 +12,7 @@ namespace ballflow::geometry {
 struct BallTreeNode {
   Ball bound;                             // around all balls below, also after a ball was added to both
   Ball largest;                           // one of these
-  std::vector<Ball> balls;                // of leaves, without the largest
+  std::vector<Ball> balls;                // of leaves, the largest first
   std::int32_t children = -1, next = -1;  // the first child; the node after all that are below this one
   std::int64_t count = 0;                 // of balls below
 };

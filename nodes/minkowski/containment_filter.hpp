@@ -1,6 +1,7 @@
 // Finds balls that lie inside another one, without comparing all pairs of them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -44,5 +45,8 @@ class ContainmentFilter {
   Index size_{1, 1, 1}, stride_{};
   std::vector<Entry> entries_;
 };
+
+/// How many voxels are worth their time for so many pairs.
+inline double filter_voxels(double pairs) { return std::clamp(pairs / 16, 1.0, 0x1p18); }
 
 }  // namespace ballflow::geometry

@@ -74,7 +74,7 @@ MinkowskiSum minkowski_sum(const Balls& a, const Balls& b, const MinkowskiSumOpt
     result.report.survivors = static_cast<std::int64_t>(triangulation.vertices());
   } else if (options.algorithm == MinkowskiAlgorithm::hierarchical) {
     result.report.survivors =
-        HierarchicalSums(a, b, triangulation, {32, false, bytes_per_pair, bytes_per_vertex}).run(most);
+        HierarchicalSums(a, b, triangulation, {bytes_per_survivor, bytes_per_vertex}).run(most);
   } else {
     const bool all = options.algorithm == MinkowskiAlgorithm::time;
     std::vector<Ball> left =

@@ -31,7 +31,7 @@ enum class MinkowskiAlgorithm {
   filtered,      // pairs are streamed through a filter that drops what lies inside another sum
   time,          // all pairs in one regular triangulation: algo_time of the thesis, 5.5
   memory,        // insert a pair, test it, drop it; what is left is tested again: algo_mem of the thesis
-  hierarchical,  // down an octree of balls around balls of the larger set: 5.3.2 of the thesis
+  hierarchical,  // down octrees of balls around balls of either set: 5.3.2 of the thesis
 };
 
 /// Which sums are kept.

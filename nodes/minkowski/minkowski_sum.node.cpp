@@ -23,7 +23,7 @@ struct MinkowskiSum {
   SumMode mode = SumMode::balanced;
 
   static void declare(NodeDecl<MinkowskiSum>& d) {
-    d.id("MinkowskiSum", 4).summary("The Minkowski sum of two unions of balls: again a union of balls.");
+    d.id("MinkowskiSum", 5).summary("The Minkowski sum of two unions of balls: again a union of balls.");
     d.doc(
         "The sums (c + c', r + r') of a ball of either set that contribute to the union of all: those with a "
         "point "
@@ -75,7 +75,7 @@ struct MinkowskiSum {
            "inserts a pair only when it contributes so far, and tests what is left again: algo_mem of the "
            "thesis; the least memory, and some ten times slower"},
           {MinkowskiAlgorithm::hierarchical, "hierarchical",
-           "passes by pairs below nodes of an octree whose balls around all contribute nothing (thesis, "
+           "passes by pairs below nodes of octrees whose balls around all contribute nothing (thesis, "
            "5.3.2)"}})
         .doc("how the sums are found; the balls are the same");
     d.choice(

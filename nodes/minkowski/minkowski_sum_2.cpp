@@ -86,7 +86,7 @@ MinkowskiSum2 minkowski_sum_2(const Balls& a, const Balls& b, const MinkowskiSum
   PlaneSums triangulation((*begin)[0], (*begin)[1], (*begin)[2]);
   if (options.algorithm == MinkowskiAlgorithm2::hierarchical) {
     result.report.survivors =
-        HierarchicalSums(a, b, triangulation, {16, true, bytes_per_pair, bytes_per_vertex}).run(most);
+        HierarchicalSums(a, b, triangulation, {bytes_per_survivor, bytes_per_vertex}).run(most);
     result.avoided = result.report.pairs - result.report.survivors;
   } else {
     const bool all = options.algorithm == MinkowskiAlgorithm2::quadratic;

@@ -10,7 +10,7 @@ namespace ballflow::geometry {
 enum class MinkowskiAlgorithm2 {
   filtered,      // pairs are streamed through a filter that drops what lies inside another sum
   quadratic,     // all pairs in one regular triangulation: algo_sq of the thesis
-  hierarchical,  // a tree of circumscribed discs over the larger set: algo_h, without insertion and removal
+  hierarchical,  // down trees of circumscribed discs: algo_h, without insertion and removal
 };
 
 struct MinkowskiSum2Options {

@@ -22,7 +22,7 @@ struct MinkowskiSum2 {
   MinkowskiSum2Options options;
 
   static void declare(NodeDecl<MinkowskiSum2>& d) {
-    d.id("MinkowskiSum2", 2).summary("The Minkowski sum of two unions of discs: again a union of discs.");
+    d.id("MinkowskiSum2", 3).summary("The Minkowski sum of two unions of discs: again a union of discs.");
     d.doc(
         "As MinkowskiSum, of balls with z = 0, and the same balls, from a triangulation of the plane: the "
         "sums "
@@ -59,7 +59,7 @@ struct MinkowskiSum2 {
            "streams the pairs through a grid of large sums and triangulates those inside none of them"},
           {MinkowskiAlgorithm2::quadratic, "quadratic", "triangulates all pairs: algo_sq of the thesis"},
           {MinkowskiAlgorithm2::hierarchical, "hierarchical",
-           "passes by pairs below nodes of a quadtree whose discs around all contribute nothing: algo_h of "
+           "passes by pairs below nodes of quadtrees whose discs around all contribute nothing: algo_h of "
            "the thesis, without inserting and removing them"}})
         .doc("how the sums are found; the discs are the same");
     d.choice("keep", &MinkowskiSum2::options, &MinkowskiSum2Options::keep,

@@ -48,7 +48,7 @@ std::vector<Ball> all_sums(const Sums& sums, double bytes_per_sum, Monitor& moni
 std::vector<Ball> filtered_sums(const Sums& sums, double bytes_per_sum, Monitor& monitor) {
   const std::size_t pairs = sums.bucket_pairs();
   const auto make_filter = [&sums] {
-    return ContainmentFilter(sums.box(), std::clamp(static_cast<double>(sums.pairs()) / 16, 1.0, 0x1p18));
+    return ContainmentFilter(sums.box(), filter_voxels(static_cast<double>(sums.pairs())));
   };
   // Each part has a filter of its own: no more of these than are worth their 10 MB.
   const std::size_t parts = std::clamp<std::size_t>(

@@ -148,7 +148,6 @@ TEST(ball_tree, has_every_disc_once_in_bounds_that_contain_it) {
       for (auto k = static_cast<std::int32_t>(i); k < node.next; ++k) {
         const BallTreeNode& inner = tree[static_cast<std::size_t>(k)];
         if (inner.children >= 0) continue;
-        below.push_back(inner.largest);
         below.insert(below.end(), inner.balls.begin(), inner.balls.end());
       }
       ASSERT_EQ(node.count, static_cast<std::int64_t>(below.size()));

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "contribution_oracle.hpp"
+#include "minkowski/hierarchical_sums.hpp"
+#include "minkowski/power_triangulation.hpp"
 #include "minkowski_cases.hpp"
 
 namespace ballflow::geometry {
@@ -159,6 +161,48 @@ TEST(minkowski_sum, hierarchical_passes_by_pairs_and_nothing_else) {
         minkowski_sum(balls_of(a), balls_of(b), {.algorithm = MinkowskiAlgorithm::hierarchical}).report;
     EXPECT_LT(report.survivors, report.pairs);
   }
+}
+
+/// Counts the questions.
+struct Asked : PowerTriangulation {
+  bool may_contribute(const Ball& ball) {
+    const bool may = PowerTriangulation::may_contribute(ball);
+    (may ? left : passed_by) += 1;
+    return may;
+  }
+  int left = 0, passed_by = 0;
+};
+
+TEST(minkowski_sum, hierarchical_asks_the_triangulation_about_blocks_and_loses_nothing) {
+  RandomBalls random(16);
+  int left = 0, passed_by = 0;
+  for (int round = 0; round < 40; ++round) {
+    SCOPED_TRACE(round);
+    Numbers a(30), b(60);
+    for (Numbers* set : {&a, &b}) {
+      for (auto& ball : *set) {
+        ball = {random.uniform(0, 4), random.uniform(0, 4), random.uniform(0, 4), random.uniform(0, 1)};
+        if (round % 2 == 0) {
+          for (double& x : ball) x = std::round(4 * x) / 4;  // ties
+        }
+      }
+    }
+    const Balls one = balls_of(a), other = balls_of(b);
+    Asked triangulation;
+    const std::int64_t inserted =
+        HierarchicalSums(one, other, triangulation,
+                         {.bytes_per_sum = 1, .bytes_per_vertex = 1, .asked_size = 1, .worth = 0})
+            .run(no_monitor());
+    EXPECT_LT(inserted, 1800);
+    Numbers found;
+    for (const Ball& ball : triangulation.contributing(no_monitor()).balls)
+      found.push_back({ball.center.x, ball.center.y, ball.center.z, ball.radius});
+    std::sort(found.begin(), found.end());
+    ASSERT_EQ(found, numbers_of(minkowski_sum(one, other, {.algorithm = MinkowskiAlgorithm::time}).balls));
+    left += triangulation.left, passed_by += triangulation.passed_by;
+  }
+  EXPECT_GT(left, 100);
+  EXPECT_GT(passed_by, 100);
 }
 
 TEST(minkowski_sum, algorithms_agree_on_larger_sets) {
