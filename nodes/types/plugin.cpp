@@ -3,6 +3,7 @@
 
 #include "types/enclosure_fit_type.hpp"
 #include "types/enclosure_type.hpp"
+#include "types/motion_types.hpp"
 #include "types/planar_types.hpp"
 #include "types/power_diagram_type.hpp"
 #include "types/robot_type.hpp"
@@ -10,10 +11,11 @@
 
 using namespace ballflow::geometry;
 
-BALLFLOW_PLUGIN("types", "0.1.0", ballflow::node_entries<>(),
-                (ballflow::type_entries<
-                    BallCounts, Balls, Bisection, Comparison, CoverCheck, CoverState, DiscOutline, Enclosure,
-                    EnclosureFit, Growth, LocalFeatureSize, MassProperties, MedialAxis, MeshReport,
-                    MinkowskiReport, NoiseReport, OutlineComparison, PointSet, PoleSet, Polygon2,
-                    PowerDiagram, Refinement, Robot, RobotSpheres, SampleAssignment, SimplicialComplex,
-                    SurfaceBallsReport, SurfaceReport, TopologyCheck, TopologyTable, TriangleMesh>()))
+BALLFLOW_PLUGIN(
+    "types", "0.1.0", ballflow::node_entries<>(),
+    (ballflow::type_entries<BallCounts, BallDistance, Balls, Bisection, Comparison, CoverCheck, CoverState,
+                            DiscOutline, Enclosure, EnclosureFit, Growth, LocalFeatureSize, MassProperties,
+                            MedialAxis, MeshReport, MinkowskiReport, NoiseReport, OutlineComparison, Path,
+                            PointSet, PoleSet, Polygon2, PowerDiagram, Refinement, Robot, RobotSpheres,
+                            SampleAssignment, SimplicialComplex, SurfaceBallsReport, SurfaceReport,
+                            TopologyCheck, TopologyTable, TriangleMesh>()))

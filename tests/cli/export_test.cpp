@@ -27,9 +27,11 @@ struct ExportTest : testing::Test {
     const std::string report = folder.file("report.json");
     std::vector<std::string> run = {"run", test::source_file("graphs/" + graph + ".json"), "--report",
                                     report};
-    run.insert(run.end(), {"--set", graph == "check_spheres" ? "links=hand,left_finger"
-                                    : graph == "discs"       ? "polygon=polygon:gear"
-                                                             : "input=shape:torus?n=1500"});
+    run.insert(run.end(), {"--set", graph == "check_spheres"      ? "links=hand,left_finger"
+                                    : graph == "discs"            ? "polygon=polygon:gear"
+                                    : graph == "ball_distance"    ? "threshold=1"
+                                    : graph == "sweep_along_path" ? "tool=shape:sphere?n=400&R=0.2"
+                                                                  : "input=shape:torus?n=1500"});
     const ProcessResult result = ballflow(run);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     std::map<std::string, std::pair<std::string, std::string>> found;
@@ -71,8 +73,8 @@ TEST_F(ExportTest, every_type_of_a_run_is_exported_to_the_last_bit_in_every_form
   ASSERT_GE(known.size(), 7u);
   std::map<std::string, int> written;
   std::size_t files = 0;
-  for (const char* graph :
-       {"dmt", "medial_axis", "growth", "local_feature_size", "seed_polytope", "check_spheres", "discs"}) {
+  for (const char* graph : {"dmt", "medial_axis", "growth", "local_feature_size", "seed_polytope",
+                            "check_spheres", "discs", "ball_distance", "sweep_along_path"}) {
     for (const auto& [name, output] : outputs(graph)) {
       const auto& [type, digest] = output;
       const std::vector<std::string> all =

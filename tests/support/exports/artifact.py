@@ -101,6 +101,19 @@ class Artifact:
         self.arcs = [(r, *arc) for r, ring in enumerate(rings) for arc in ring]
         self.components = [rings[parts[k]:parts[k + 1]] for k in range(len(parts) - 1)]
 
+    def read_BallDistance(self, a):
+        pairs = a["pairs"] and list(zip(a["pairs"], a["separations"], a["pair_points_a"], a["pair_points_b"]))
+        if not pairs:
+            pairs = [((a["a"][0], a["b"][0]), a["separation"][0], tuple(a["point_a"]), tuple(a["point_b"]))]
+        self.pair_rows = [(*balls, separation, *p, *q) for balls, separation, p, q in pairs]
+        for _, _, p, q in pairs:
+            self.edges.append((len(self.points), len(self.points) + 1))
+            self.points += [p, q]
+
+    def read_Path(self, a):
+        self.points, self.radii = a["points"], a["radii"]
+        self.edges = [(i, i + 1) for i in range(len(self.points) - 1)]
+
     def read_PoleSet(self, a):
         self.points, self.radii = a["centers"], a["radii"]
         self.point_codes = ("label", a["labels"])
@@ -208,7 +221,7 @@ class Artifact:
     read_CoverCheck = read_Comparison = read_Bisection = read_CoverState
     read_TopologyTable = read_TopologyCheck = read_Refinement = read_CoverState
     read_MassProperties = read_SurfaceBallsReport = read_CoverState
-    read_NoiseReport = read_CoverState
+    read_NoiseReport = read_MinkowskiReport = read_CoverState
 
     def balls(self):
         return [(*p, r) for p, r in zip(self.points, self.radii)]

@@ -26,6 +26,9 @@ def check_csv(data, artifact):
             numbers = tuple(float(row[name]) for name in ("x", "y", "z", "radius"))
             found.setdefault(row["link"], []).append(numbers)
         return same(found, artifact.with_spheres, "spheres")
+    if artifact.type == "BallDistance":
+        same(lines[0], "ball_a,ball_b,separation,ax,ay,az,bx,by,bz", "names")
+        return same([tuple(map(float, line.split(","))) for line in lines[1:]], artifact.pair_rows, "pairs")
     if artifact.type == "DiscOutline":
         same(lines[0], "ring,x,y,r,begin_x,begin_y,angle", "names")
         return same([tuple(map(float, line.split(","))) for line in lines[1:]], artifact.arcs, "arcs")

@@ -16,7 +16,7 @@ const std::vector<TypeFormats>& table() {
       cover_state_formats(),    simplicial_complex_formats(), medial_axis_formats(),
       topology_table_formats(), sample_assignment_formats(),  surface_report_formats(),
       robot_formats(),          robot_spheres_formats(),      polygon2_formats(),
-      disc_outline_formats()};
+      disc_outline_formats(),   ball_distance_formats(),      path_formats()};
   return types;
 }
 

@@ -16,6 +16,8 @@
 //   RobotSpheres       urdf srdf curobo xrdf foam mjcf csv   yml is curobo, xml is mjcf
 //   Polygon2           svg geojson wkt poly2d ply obj vtp glb
 //   DiscOutline        svg csv                     arcs as they are
+//   BallDistance       csv ply obj vtp             the nearest pair, and those below the threshold
+//   Path               csv ply obj vtp npy         points with radii; PathBalls reads the csv
 //   every type         json safetensors              summary and shapes; the artifact, byte for byte
 // clang-format on
 //

@@ -47,6 +47,8 @@ TypeFormats robot_formats();
 TypeFormats robot_spheres_formats();
 TypeFormats polygon2_formats();
 TypeFormats disc_outline_formats();
+TypeFormats ball_distance_formats();
+TypeFormats path_formats();
 
 /// What every type can be written as.
 std::vector<Format> generic_formats();

@@ -30,5 +30,7 @@ TypeLayers sample_assignment_layers();
 TypeLayers surface_report_layers();
 TypeLayers polygon2_layers();
 TypeLayers disc_outline_layers();
+TypeLayers ball_distance_layers();
+TypeLayers path_layers();
 
 }  // namespace ballflow::show

@@ -25,7 +25,9 @@ const std::vector<TypeLayers>& table() {
                                                 robot_layers(),
                                                 robot_spheres_layers(),
                                                 polygon2_layers(),
-                                                disc_outline_layers()};
+                                                disc_outline_layers(),
+                                                ball_distance_layers(),
+                                                path_layers()};
   return types;
 }
 

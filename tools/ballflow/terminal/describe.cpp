@@ -255,6 +255,26 @@ std::string describe(const OutputEntry& output) {
          if (s.at("holes") != 0) text += ", " + counted(s, "holes", "hole");
          return text + ", area " + rounded(s, "area");
        }},
+      {"BallDistance",
+       [](const Json& s) {
+         std::string text = s.at("words").get<std::string>();
+         if (s.at("pairs") != 0) {
+           text += ", " + std::string(s.at("cut").get<bool>() ? "more than " : "") +
+                   counted(s, "pairs", "pair") + " at most " + rounded(s, "threshold") + " apart";
+         }
+         if (s.at("solids_words").is_string()) text += "; " + s.at("solids_words").get<std::string>();
+         return text;
+       }},
+      {"Path",
+       [](const Json& s) {
+         std::string text = counted(s, "points", "point") + ", " + rounded(s, "length") + " long";
+         if (s.at("balls") != 0) {
+           text += ", " + counted(s, "balls", "ball") +
+                   (s.at("contains").get<bool>() ? " that contain it, by " : " in it, off by ") +
+                   rounded(s, "error") + " at most";
+         }
+         return text;
+       }},
       {"MeshReport", mesh_report},
       {"Robot", robot},
       {"RobotSpheres", robot_spheres},

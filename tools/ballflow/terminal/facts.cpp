@@ -12,6 +12,7 @@ class Facts {
   Facts(const NamedOutputs& outputs, const Json& params) : outputs_(outputs), params_(params) {}
 
   std::vector<std::string> find() {
+    if (const OutputEntry* const distance = of_type("BallDistance")) facts_.push_back(describe(*distance));
     balls();
     topology();
     coverage();

@@ -4,6 +4,7 @@
 
 #include "ballflow/error.hpp"
 #include "sealed.hpp"
+#include "types/motion_types.hpp"
 #include "types/planar_types.hpp"
 #include "types/surface_types.hpp"
 
@@ -55,6 +56,53 @@ TEST(scene, draws_the_rings_of_polygons) {
   EXPECT_EQ(layers[0].segments,
             (std::vector<std::array<std::uint32_t, 2>>{{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}}));
   EXPECT_EQ(layers[0].find("ring")->values, (std::vector<double>{0, 0, 0, 1, 1, 1}));
+}
+
+TEST(scene, colours_balls_by_their_clearance_and_draws_what_is_nearest) {
+  geometry::BallDistance d;
+  d.balls_a = 2;
+  d.balls_b = 1;
+  d.a = 1;
+  d.separation = 2;
+  d.point_a = {4, 0, 0};
+  d.point_b = {6, 0, 0};
+  d.solids_at_least = d.solids_at_most = 2;
+  const auto bare = shown(d);
+  ASSERT_EQ(names(bare), Names{"nearest points"});
+  EXPECT_EQ(bare[0].vertices, (geometry::Array<Vec3>{{4, 0, 0}, {6, 0, 0}}));
+  d.threshold = 3;
+  d.pairs = {{1, 0}};
+  d.separations = {2};
+  d.pair_points_a = {{4, 0, 0}};
+  d.pair_points_b = {{6, 0, 0}};
+  d.centers_a = {{0, 0, 0}, {3, 0, 0}};
+  d.radii_a = {0.5, 1};
+  d.clearances_a = {5.5, 2};
+  d.nearest_a = {0, 0};
+  d.centers_b = {{7, 0, 0}};
+  d.radii_b = {1};
+  d.clearances_b = {2};
+  d.nearest_b = {1};
+  const auto layers = shown(d);
+  ASSERT_EQ(names(layers),
+            (Names{"clearance of a", "clearance of b", "nearest points", "pairs below the threshold"}));
+  EXPECT_EQ(layers[0].find(layers[0].colour_by)->values, (std::vector<double>{5.5, 2}));
+  EXPECT_EQ(layers[0].radii, (geometry::Array<double>{0.5, 1}));
+  EXPECT_FALSE(layers[3].visible);
+  EXPECT_EQ(layers[3].find(layers[3].colour_by)->values, std::vector<double>{2});
+}
+
+TEST(scene, draws_paths_as_segments_and_a_path_of_one_point_as_a_point) {
+  geometry::Path path;
+  path.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
+  path.radii = {0, 0.5, 0};
+  const auto layers = shown(path);
+  ASSERT_EQ(names(layers), Names{"path"});
+  EXPECT_EQ(layers[0].segments, (std::vector<std::array<std::uint32_t, 2>>{{0, 1}, {1, 2}}));
+  EXPECT_EQ(layers[0].find("radius")->values, (std::vector<double>{0, 0.5, 0}));
+  path.points = {{3, 0, 0}};
+  path.radii = {0};
+  EXPECT_EQ(shown(path)[0].shape, Shape::points);
 }
 
 TEST(scene, tells_inner_from_outer_poles) {
