@@ -135,11 +135,13 @@ Balls outer_side(const TriangleMesh& mesh, const Balls& balls, const Solid& soli
 }  // namespace
 
 Balls one_sided_balls(const TriangleMesh& mesh, const Balls& balls, const OneSidedBallsOptions& options,
-                      Monitor& monitor) {
+                      Monitor& monitor, const TriangleMesh* closed) {
   check(mesh, balls);
+  if (closed != nullptr) check(*closed, balls);
   PartMonitor reading(monitor, 0, 0.1);
-  const Solid solid(mesh, balls, reading);
-  Balls result = options.side == BallSide::inner ? inner_side(mesh, balls, solid, monitor)
+  const TriangleMesh& around = closed != nullptr ? *closed : mesh;
+  const Solid solid(around, balls, reading);
+  Balls result = options.side == BallSide::inner ? inner_side(around, balls, solid, monitor)
                                                  : outer_side(mesh, balls, solid, monitor);
   monitor.step(1);
   return result;

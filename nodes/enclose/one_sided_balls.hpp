@@ -30,10 +30,12 @@ struct OneSidedBallsOptions {
 ///   for. A part that lies in a ball by then needs none. No ball grows by more than the largest growth that
 ///   one part needs. A void that the union closes off gets a ball that touches the surface; these come last.
 ///   It is verify_enclosure that proves what came out.
+/// - `solid`: a closed mesh whose inside and whose surface count in place of the mesh's, which is only what
+///   has to be covered: for discs a prism, and in `mesh` the polygon itself (planar/polygon_meshes.hpp).
 /// - Results have no defining samples. The same for any number of threads.
 /// - Throws InputError for inputs that break their invariants, without triangles or balls; inner: for meshes
 ///   that are not closed, and where no centre is inside; outer: where voids are left after 64 rounds.
 Balls one_sided_balls(const TriangleMesh& mesh, const Balls& balls, const OneSidedBallsOptions& options,
-                      Monitor& monitor = no_monitor());
+                      Monitor& monitor = no_monitor(), const TriangleMesh* solid = nullptr);
 
 }  // namespace ballflow::geometry

@@ -12,7 +12,7 @@ using geometry::BallSide;
 using geometry::OneSidedBallsOptions;
 
 struct OneSidedBalls {
-  In<geometry::TriangleMesh> mesh;
+  In<geometry::TriangleMesh> mesh, solid;
   In<geometry::Balls> balls;
   Out<geometry::Balls> result;
   OneSidedBallsOptions options;
@@ -36,6 +36,12 @@ struct OneSidedBalls {
     d.memory(64 << 20, 200);
     d.input("mesh", &OneSidedBalls::mesh).doc("m triangles, model units; orientation does not matter");
     d.input("balls", &OneSidedBalls::balls).doc("n balls of the same model, in the same place and unit");
+    d.input("solid", &OneSidedBalls::solid)
+        .optional()
+        .doc(
+            "a closed mesh whose inside and surface count in place of the mesh's, which is then what has to "
+            "be "
+            "covered: for discs the prism of PolygonMeshes");
     d.output("balls", &OneSidedBalls::result)
         .doc("balls with the same centres, in the same order, without those left out; fillings last");
     d.choice("side", &OneSidedBalls::options, &OneSidedBallsOptions::side,
@@ -45,7 +51,7 @@ struct OneSidedBalls {
   }
   void run(RunContext& context) {
     ContextMonitor monitor(context);
-    result = geometry::one_sided_balls(*mesh, *balls, options, monitor);
+    result = geometry::one_sided_balls(*mesh, *balls, options, monitor, solid ? &*solid : nullptr);
   }
 };
 

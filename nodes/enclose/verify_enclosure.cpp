@@ -134,9 +134,11 @@ std::string at_point(Vec3 p) {
 
 Enclosure verify_enclosure(const TriangleMesh& mesh, const Balls& balls,
                            const VerifyEnclosureOptions& options, Monitor& monitor,
-                           const PowerDiagram* diagram) {
-  if (const std::string broken = broken_invariant(mesh); !broken.empty()) {
-    throw InputError("the mesh is damaged: " + broken, "repair the mesh, or read it again");
+                           const PowerDiagram* diagram, const TriangleMesh* solid) {
+  for (const TriangleMesh* each : {&mesh, solid}) {
+    if (each == nullptr) continue;
+    if (const std::string broken = broken_invariant(*each); !broken.empty())
+      throw InputError("the mesh is damaged: " + broken, "repair the mesh, or read it again");
   }
   if (const std::string broken = broken_invariant(balls); !broken.empty()) {
     throw InputError(broken, "repair or remove the ball");
@@ -153,7 +155,11 @@ Enclosure verify_enclosure(const TriangleMesh& mesh, const Balls& balls,
   if (mesh.triangles.empty()) return result;
   look_at_triangles(mesh, balls, monitor, result);
   PartMonitor seeking(monitor, 0.7, 0.85);
-  const WindingNumber winding(mesh, seeking);
+  const TriangleMesh& around = solid != nullptr ? *solid : mesh;
+  const WindingNumber winding(around, seeking);
+  if (solid != nullptr && !winding.chain().closed())
+    throw InputError("nothing is inside of the solid: " + why_not_closed(winding.chain(), around),
+                     "close it, or leave it away");
   result.closed = winding.chain().closed() ? 1 : 0;
   if (balls.size() > 0) {
     if (diagram != nullptr) {
@@ -161,7 +167,7 @@ Enclosure verify_enclosure(const TriangleMesh& mesh, const Balls& balls,
     } else {
       look_at_voids(power_diagram(balls, {}, seeking), winding, seeking, result);
     }
-    result.protrusion = protrusion(mesh, balls, winding, monitor);
+    result.protrusion = protrusion(around, balls, winding, monitor);
   }
   if (options.on_open == OnOpen::error && !result.encloses()) refuse(result);
   monitor.step(1);

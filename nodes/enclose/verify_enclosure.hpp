@@ -41,11 +41,13 @@ struct VerifyEnclosureOptions {
 /// - gap_at_most: the distance from a ball is convex, so that the corners of a part bound it; parts are
 ///   bisected until the largest distance is known to 1 %, or 0.02 % of the longest edge of the box. What
 ///   rounding can add, 2^-44 of the largest coordinate, is added.
+/// - `solid`: a closed mesh whose inside is what matters for voids and for the protrusion, where it is not
+///   that of `mesh`: for discs a prism, and in `mesh` the polygon itself (planar/polygon_meshes.hpp).
 /// - Throws InputError for inputs that break their invariants, no triangles but with on_open expect (then
 ///   nothing is proven), and with on_open error for what is not enclosed.
 /// - The same for any number of threads.
 Enclosure verify_enclosure(const TriangleMesh& mesh, const Balls& balls,
                            const VerifyEnclosureOptions& options, Monitor& monitor = no_monitor(),
-                           const PowerDiagram* diagram = nullptr);
+                           const PowerDiagram* diagram = nullptr, const TriangleMesh* solid = nullptr);
 
 }  // namespace ballflow::geometry

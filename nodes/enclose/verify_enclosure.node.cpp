@@ -14,14 +14,14 @@ using geometry::OnOpen;
 using geometry::VerifyEnclosureOptions;
 
 struct VerifyEnclosure {
-  In<geometry::TriangleMesh> mesh;
+  In<geometry::TriangleMesh> mesh, solid;
   In<geometry::Balls> balls;
   In<geometry::PowerDiagram> diagram;
   Out<geometry::Enclosure> enclosure;
   VerifyEnclosureOptions options;
 
   static void declare(NodeDecl<VerifyEnclosure>& d) {
-    d.id("VerifyEnclosure", 3)
+    d.id("VerifyEnclosure", 4)
         .summary("Prove that balls contain everything inside a surface, or tell what they miss.");
     d.doc(
         "The union of the balls contains every triangle, and everything that the triangles separate from "
@@ -33,7 +33,8 @@ struct VerifyEnclosure {
         "with a "
         "point of each triangle, about which share of the surface it is, and how far away. protrusion bounds "
         "how "
-        "far the balls stand out. Refuses meshes without triangles.");
+        "far the balls stand out. Refuses meshes without triangles, but with on_open expect: then nothing is "
+        "proven.");
     d.avoid_when("samples have to be covered, not the surface between them: VerifyCover.");
     d.cites("edelsbrunner1995", "voids by the dual complex");
     d.library("CGAL", geometry::cgal_version());
@@ -43,6 +44,12 @@ struct VerifyEnclosure {
     d.input("diagram", &VerifyEnclosure::diagram)
         .optional()
         .doc("their power diagram, with tolerance none: they are not triangulated again");
+    d.input("solid", &VerifyEnclosure::solid)
+        .optional()
+        .doc(
+            "a closed mesh whose inside counts in place of the mesh's for voids and the protrusion: for "
+            "discs "
+            "the prism of PolygonMeshes");
     d.output("enclosure", &VerifyEnclosure::enclosure).doc("the verdict, and every place where it fails");
     d.choice("on_open", &VerifyEnclosure::options, &VerifyEnclosureOptions::on_open,
              {{OnOpen::error, "error", "the node fails and names the first place"},
@@ -53,8 +60,8 @@ struct VerifyEnclosure {
   }
   void run(RunContext& context) {
     ContextMonitor monitor(context);
-    geometry::Enclosure found =
-        geometry::verify_enclosure(*mesh, *balls, options, monitor, diagram ? &*diagram : nullptr);
+    geometry::Enclosure found = geometry::verify_enclosure(
+        *mesh, *balls, options, monitor, diagram ? &*diagram : nullptr, solid ? &*solid : nullptr);
     if (!found.encloses() && options.on_open != OnOpen::expect)
       monitor.warn("the balls do NOT enclose the surface: " + geometry::describe(found));
     enclosure = std::move(found);

@@ -1,10 +1,10 @@
-#include "minkowski/minkowski_sum_2.hpp"
-
 #include <ballflow/sdk.hpp>
 #include <utility>
 
 #include "exact/cgal_version.hpp"
+#include "minkowski/sum_of_solids.hpp"
 #include "types/artifact_types.hpp"
+#include "types/enclosure_type.hpp"
 #include "types/planar_types.hpp"
 
 namespace ballflow::nodes {
@@ -13,16 +13,19 @@ namespace {
 using geometry::MinkowskiAlgorithm2;
 using geometry::MinkowskiKeep;
 using geometry::MinkowskiSum2Options;
+using geometry::SumMode;
 
 struct MinkowskiSum2 {
   In<geometry::Balls> a, b;
   In<geometry::OutlineComparison> a_comparison, b_comparison;
+  In<geometry::Enclosure> a_enclosure, b_enclosure;
   Out<geometry::Balls> balls;
   Out<geometry::MinkowskiReport> report;
   MinkowskiSum2Options options;
+  SumMode mode = SumMode::balanced;
 
   static void declare(NodeDecl<MinkowskiSum2>& d) {
-    d.id("MinkowskiSum2", 3).summary("The Minkowski sum of two unions of discs: again a union of discs.");
+    d.id("MinkowskiSum2", 4).summary("The Minkowski sum of two unions of discs: again a union of discs.");
     d.doc(
         "As MinkowskiSum, of balls with z = 0, and the same balls, from a triangulation of the plane: the "
         "sums "
@@ -49,6 +52,13 @@ struct MinkowskiSum2 {
             "bound; "
             "without it a stands for itself");
     d.input("b_comparison", &MinkowskiSum2::b_comparison).optional().doc("the same of b");
+    d.input("a_enclosure", &MinkowskiSum2::a_enclosure)
+        .optional()
+        .doc(
+            "what VerifyEnclosure proved of a and the meshes of its polygon (PolygonMeshes): bounds both "
+            "ways, "
+            "and with mode inner or outer the proof that the sum is bounded from that side");
+    d.input("b_enclosure", &MinkowskiSum2::b_enclosure).optional().doc("the same of b");
     d.output("balls", &MinkowskiSum2::balls)
         .doc("the sums that are kept, ascending by x, y of the center, z = 0");
     d.output("report", &MinkowskiSum2::report)
@@ -68,13 +78,21 @@ struct MinkowskiSum2 {
                "a part of them with the same union in the plane, of which no disc can go (see MinimalUnion); "
                "takes longer"}})
         .doc("which sums are kept; the union is the same");
+    d.choice(
+         "mode", &MinkowskiSum2::mode,
+         {{SumMode::balanced, "balanced", "sums are rounded to nearest"},
+          {SumMode::inner, "inner", "sums are rounded inwards: discs inside give a sum inside"},
+          {SumMode::outer, "outer", "sums are rounded outwards: discs that enclose give a sum that does"}})
+        .doc("which side of the sum of the polygons the discs of a and b are made for");
   }
 
   void run(RunContext& context) {
     ContextMonitor monitor(context);
-    geometry::MinkowskiSum2 sum = geometry::minkowski_sum_2(
-        *a, *b, options, monitor,
-        {.a = a_comparison ? &*a_comparison : nullptr, .b = b_comparison ? &*b_comparison : nullptr});
+    geometry::MinkowskiSum2 sum = geometry::sum_of_polygons(
+        *a, *b, mode,
+        {.a = a_comparison ? &*a_comparison : nullptr, .b = b_comparison ? &*b_comparison : nullptr},
+        {.a = a_enclosure ? &*a_enclosure : nullptr, .b = b_enclosure ? &*b_enclosure : nullptr}, options,
+        monitor);
     balls = std::move(sum.balls);
     report.summary("avoided", sum.avoided);
     report = sum.report;

@@ -28,14 +28,20 @@ struct Side {
   double gap = 0, excess = 0;  // negative: not known
 };
 
-Side side_of(const Comparison* comparison, const Enclosure* enclosure) {
-  Side side;
-  if (comparison != nullptr) {
-    side.compared_with = static_cast<ComparedWith>(comparison->compared_with);
-    side.encloses = side.inside = SideProof::unknown;
-    side.gap = error_bound(comparison, nullptr);
-    side.excess = -1;
-  }
+Side compared_side(const Comparison* comparison) {
+  if (comparison == nullptr) return {};
+  return {static_cast<ComparedWith>(comparison->compared_with), SideProof::unknown, SideProof::unknown,
+          error_bound(comparison, nullptr), -1};
+}
+
+Side compared_side(const OutlineComparison* comparison) {
+  if (comparison == nullptr) return {};
+  return {ComparedWith::closed_mesh, SideProof::unknown, SideProof::unknown, comparison->a_to_b_at_most, -1};
+}
+
+template <class Compared>
+Side side_of(const Compared* comparison, const Enclosure* enclosure) {
+  Side side = compared_side(comparison);
   if (enclosure == nullptr) return side;
   if (const std::string broken = broken_invariant(*enclosure); !broken.empty())
     throw InputError("an enclosure is damaged: " + broken, "compute it again");
@@ -78,18 +84,19 @@ double rounding_of_sums(const Balls& a, const Balls& b) {
   return 0x1p-48 * (largest_number(a) + largest_number(b));
 }
 
-MinkowskiSum sum_of_solids(const Balls& a, const Balls& b, SumMode mode, const SolidComparisons& compared,
-                           const SolidEnclosures& enclosed, const MinkowskiSumOptions& options,
-                           Monitor& monitor) {
+namespace {
+
+/// The sum by `sum(a, b)`, and what follows.
+template <class Compared, class MakeSum>
+auto sided_sum(const Balls& a, const Balls& b, SumMode mode, const Compared& compared,
+               const SolidEnclosures& enclosed, const MakeSum& make) {
   for (const Balls* side : {&a, &b}) {
     if (const std::string broken = broken_invariant(*side); !broken.empty())
       throw InputError((side == &a ? "a: " : "b: ") + broken, "repair or remove the ball");
   }
   const double rounding = mode == SumMode::balanced ? 0 : rounding_of_sums(a, b);
-  MinkowskiSum sum = mode == SumMode::balanced
-                         ? minkowski_sum(a, b, options, monitor, compared)
-                         : minkowski_sum(moved_radii(a, mode, rounding), moved_radii(b, mode, rounding),
-                                         options, monitor, compared);
+  auto sum = mode == SumMode::balanced ? make(a, b)
+                                       : make(moved_radii(a, mode, rounding), moved_radii(b, mode, rounding));
   const Side of_a = side_of(compared.a, enclosed.a), of_b = side_of(compared.b, enclosed.b);
   MinkowskiReport& report = sum.report;
   report.a_compared_with = static_cast<std::uint8_t>(of_a.compared_with);
@@ -111,6 +118,24 @@ MinkowskiSum sum_of_solids(const Balls& a, const Balls& b, SumMode mode, const S
       report.excess_bound = report.inside() ? 0 : of_a.excess + of_b.excess + grown;
   }
   return sum;
+}
+
+}  // namespace
+
+MinkowskiSum sum_of_solids(const Balls& a, const Balls& b, SumMode mode, const SolidComparisons& compared,
+                           const SolidEnclosures& enclosed, const MinkowskiSumOptions& options,
+                           Monitor& monitor) {
+  return sided_sum(a, b, mode, compared, enclosed, [&](const Balls& of_a, const Balls& of_b) {
+    return minkowski_sum(of_a, of_b, options, monitor, compared);
+  });
+}
+
+MinkowskiSum2 sum_of_polygons(const Balls& a, const Balls& b, SumMode mode,
+                              const PolygonComparisons& compared, const SolidEnclosures& enclosed,
+                              const MinkowskiSum2Options& options, Monitor& monitor) {
+  return sided_sum(a, b, mode, compared, enclosed, [&](const Balls& of_a, const Balls& of_b) {
+    return minkowski_sum_2(of_a, of_b, options, monitor, compared);
+  });
 }
 
 }  // namespace ballflow::geometry

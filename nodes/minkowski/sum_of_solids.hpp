@@ -2,6 +2,7 @@
 #pragma once
 
 #include "minkowski/minkowski_sum.hpp"
+#include "minkowski/minkowski_sum_2.hpp"
 #include "types/enclosure.hpp"
 
 namespace ballflow::geometry {
@@ -44,5 +45,11 @@ double rounding_of_sums(const Balls& a, const Balls& b);
 MinkowskiSum sum_of_solids(const Balls& a, const Balls& b, SumMode mode, const SolidComparisons& compared,
                            const SolidEnclosures& enclosed, const MinkowskiSumOptions& options = {},
                            Monitor& monitor = no_monitor());
+
+/// The same of discs and polygons: minkowski_sum_2 in place of minkowski_sum. Enclosures are those of balls
+/// with z = 0 and the meshes of a polygon (planar/polygon_meshes.hpp).
+MinkowskiSum2 sum_of_polygons(const Balls& a, const Balls& b, SumMode mode,
+                              const PolygonComparisons& compared, const SolidEnclosures& enclosed,
+                              const MinkowskiSum2Options& options = {}, Monitor& monitor = no_monitor());
 
 }  // namespace ballflow::geometry
