@@ -8,6 +8,7 @@
 #include "base/memory.hpp"
 #include "minkowski/hierarchical_sums.hpp"
 #include "minkowski/power_triangulation.hpp"
+#include "minkowski/slab_sums.hpp"
 #include "minkowski/sum_lists.hpp"
 #include "minkowski/sums.hpp"
 #include "power/usable_balls.hpp"
@@ -59,32 +60,39 @@ MinkowskiSum minkowski_sum(const Balls& a, const Balls& b, const MinkowskiSumOpt
   }
 
   PartMonitor most(monitor, 0, minimal ? 0.3 : 1);
-  PowerTriangulation triangulation;
-  if (options.algorithm == MinkowskiAlgorithm::memory) {
-    constexpr std::size_t work = 4096;  // about 10 us
-    const MemoryLimit memory(monitor);
-    sums.for_each(
-        most, 0, 0.9,
-        [&, looked = std::int64_t{0}](const Ball& sum) mutable {
-          triangulation.insert_if_contributing(sum);
-          if (++looked % 4096 == 0)
-            require_memory(static_cast<std::int64_t>(triangulation.vertices()), bytes_per_vertex, memory);
-        },
-        work);
-    result.report.survivors = static_cast<std::int64_t>(triangulation.vertices());
-  } else if (options.algorithm == MinkowskiAlgorithm::hierarchical) {
-    result.report.survivors =
-        HierarchicalSums(a, b, triangulation, {bytes_per_survivor, bytes_per_vertex}).run(most);
-  } else {
-    const bool all = options.algorithm == MinkowskiAlgorithm::time;
-    std::vector<Ball> left =
-        all ? all_sums(sums, bytes_per_pair, most) : filtered_sums(sums, bytes_per_survivor, most);
+  Contributing found;
+  PartMonitor end(most, 0.9, 1);
+  if (options.algorithm == MinkowskiAlgorithm::filtered) {
+    std::vector<Ball> left = filtered_sums(sums, bytes_per_survivor, most);
     result.report.survivors = static_cast<std::int64_t>(left.size());
-    PartMonitor part(most, 0.15, 0.9);
-    triangulation.insert(std::move(left), part);
+    const std::size_t slabs = slabs_for(left.size());
+    PartMonitor part(most, 0.15, 1);
+    found = contributing_in_slabs(std::move(left), slabs, part);
+  } else {
+    PowerTriangulation triangulation;
+    if (options.algorithm == MinkowskiAlgorithm::memory) {
+      constexpr std::size_t work = 4096;  // about 10 us
+      const MemoryLimit memory(monitor);
+      sums.for_each(
+          most, 0, 0.9,
+          [&, looked = std::int64_t{0}](const Ball& sum) mutable {
+            triangulation.insert_if_contributing(sum);
+            if (++looked % 4096 == 0)
+              require_memory(static_cast<std::int64_t>(triangulation.vertices()), bytes_per_vertex, memory);
+          },
+          work);
+      result.report.survivors = static_cast<std::int64_t>(triangulation.vertices());
+    } else if (options.algorithm == MinkowskiAlgorithm::hierarchical) {
+      result.report.survivors =
+          HierarchicalSums(a, b, triangulation, {bytes_per_survivor, bytes_per_vertex}).run(most);
+    } else {
+      std::vector<Ball> all = all_sums(sums, bytes_per_pair, most);
+      result.report.survivors = static_cast<std::int64_t>(all.size());
+      PartMonitor part(most, 0.15, 0.9);
+      triangulation.insert(std::move(all), part);
+    }
+    found = triangulation.contributing(end);
   }
-  PartMonitor part(most, 0.9, 1);
-  Contributing found = triangulation.contributing(part);
   PartMonitor last(monitor, minimal ? 0.3 : 1, 1);
   result.balls = keep(std::move(found), options.keep, UnionOf::balls, result.report, last);
   return result;

@@ -274,27 +274,42 @@ bool PowerTriangulation::may_contribute(const Ball& ball) {
 }
 
 Contributing PowerTriangulation::contributing(Monitor& monitor) {
+  return contributing([](const Ball&) { return Share::whole; }, monitor);
+}
+
+Shared PowerTriangulation::contributing(const std::function<Share(const Ball&)>& share, Monitor& monitor) {
   const Tables tables(implementation_->triangulation, monitor);
   implementation_->triangulation.clear();
   const Stars stars(tables, monitor);
   ContributionTest& test = implementation_->test;
   std::vector<Site>& link = implementation_->link;
-  std::vector<std::int32_t> seen_from(tables.sites.size(), none);
+  std::vector<std::int32_t> seen_from(tables.sites.size(), none), around;
   std::vector<std::uint8_t> contributes(tables.sites.size());
-  Contributing result;
+  Shared result;
   for (std::size_t i = 0; i < tables.sites.size(); ++i) {
     if (i % 1024 == 0) monitor.step(static_cast<double>(i) / static_cast<double>(tables.sites.size()));
+    const Share wanted = share(tables.balls[i]);
+    if (wanted == Share::none) continue;
     const auto id = static_cast<std::int32_t>(i);
     link.clear();
+    around.clear();
     for (const std::int32_t cell : stars.of(i)) {
       for (const std::int32_t v : tables.cells[at(cell)]) {
         if (v == none || v == id || seen_from[at(v)] == id) continue;
         seen_from[at(v)] = id;
         link.push_back(tables.sites[at(v)]);
+        around.push_back(v);
       }
     }
-    contributes[i] = test.contributes(tables.sites[i], link);
-    if (contributes[i]) result.balls.push_back(tables.balls[i]);
+    if (!test.contributes(tables.sites[i], link)) continue;
+    if (wanted == Share::whole) {
+      contributes[i] = 1;
+      result.balls.push_back(tables.balls[i]);
+      continue;
+    }
+    result.parts.push_back(tables.balls[i]);
+    for (const std::int32_t v : around) result.around.push_back(tables.balls[at(v)]);
+    result.around_offsets.push_back(result.around.size());
   }
   result.touching_boundary = count_touching(tables, contributes, monitor);
   return result;

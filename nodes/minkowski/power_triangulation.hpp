@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -15,6 +16,19 @@ struct Contributing {
   std::vector<Ball> balls;  // in no particular order
   // Of these, have a piece of their sphere (radius 0: their point) on the boundary of the union.
   std::int64_t touching_boundary = 0;
+};
+
+/// What a triangulation is asked about its balls.
+enum class Share : std::uint8_t {
+  none,   // nothing
+  whole,  // whether it contributes
+  part,   // also who is around it, when it does: other triangulations know the rest
+};
+
+struct Shared : Contributing {  // `balls` and `touching_boundary` of share `whole`
+  std::vector<Ball> parts;      // those of share `part` that contribute here
+  std::vector<std::size_t> around_offsets{0};
+  std::vector<Ball> around;  // the neighbors of part i are around[around_offsets[i] .. around_offsets[i + 1])
 };
 
 /// Of balls at one place the largest stays. Hidden points are forgotten: they do not contribute. Which points
@@ -43,6 +57,7 @@ class PowerTriangulation {
 
   /// The balls that contribute among all inserted. Ends the triangulation.
   Contributing contributing(Monitor& monitor);
+  Shared contributing(const std::function<Share(const Ball&)>& share, Monitor& monitor);
 
  private:
   struct Implementation;
