@@ -105,7 +105,7 @@ PricedGroups priced_groups(const CoverState& state, const std::vector<std::int32
 }
 
 void settle(CoverState& state, const PricedGroups& groups) {
-  if (groups.ends.empty()) return;
+  if (groups.ends.empty() || state.left_out > 0) return;
   PricedGroups all = settled_groups(state);
   append(all, groups);
   const std::int64_t bound = all.bound();
@@ -116,6 +116,7 @@ void settle(CoverState& state, const PricedGroups& groups) {
 }
 
 void prove(CoverState& state, const PricedGroups& groups) {
+  if (state.left_out > 0) return;
   PricedGroups all = settled_groups(state);
   const std::size_t settled = all.ends.size();
   append(all, groups);

@@ -39,6 +39,9 @@ struct PricedGroups {
 PricedGroups priced_groups(const CoverState& state, const std::vector<std::int32_t>& price,
                            Monitor& monitor = no_monitor());
 
+/// settle() and prove() do nothing where the matrix leaves balls out: prices that suit its rows need not suit
+/// the others.
+
 /// Takes over groups about samples that essential or exact choices have just taken out of the matrix. Groups
 /// about the matrix as it was before are dropped, unless the certificate proves more with them: then the
 /// certificate stays as it was. Raises the lower bound.

@@ -14,6 +14,7 @@
 
 #include "base/for_each_block.hpp"
 #include "base/memory.hpp"
+#include "cover/large_cover_matrix.hpp"
 #include "cover/residual.hpp"
 #include "search/membership.hpp"
 #include "search/sample_tree.hpp"
@@ -78,8 +79,21 @@ struct BlockHits {
 // Scans need 20 to 60; but where all samples are nearly as far from a ball as its radius, as on a sphere, it
 // has a hit in every leaf, and is asked again.
 constexpr std::int64_t hits_per_ball = 128;
+constexpr std::int64_t most_hits = std::int64_t{1} << 24;  // 128 MB in all
 
-/// `balls` and one ball of radius 0 at each of `samples`, which it is defined by.
+std::vector<std::int32_t> numbers(std::size_t count) {
+  std::vector<std::int32_t> ids(count);
+  for (std::size_t i = 0; i < count; ++i) ids[i] = static_cast<std::int32_t>(i);
+  return ids;
+}
+
+std::string how_many(const std::vector<std::int32_t>& uncovered, std::size_t samples) {
+  return std::to_string(uncovered.size()) + " of " + std::to_string(samples) + " samples lie" +
+         (uncovered.size() == 1 ? "s" : "") + " in no ball";
+}
+
+}  // namespace
+
 Balls with_points(const Balls& balls, const PointSet& points, const std::vector<std::int32_t>& samples) {
   if (samples.empty()) return balls;
   std::vector<Vec3> centers(balls.centers.begin(), balls.centers.end());
@@ -97,19 +111,6 @@ Balls with_points(const Balls& balls, const PointSet& points, const std::vector<
   return {std::move(centers), std::move(radii), std::move(offsets), std::move(defining)};
 }
 
-std::vector<std::int32_t> numbers(std::size_t count) {
-  std::vector<std::int32_t> ids(count);
-  for (std::size_t i = 0; i < count; ++i) ids[i] = static_cast<std::int32_t>(i);
-  return ids;
-}
-
-std::string how_many(const std::vector<std::int32_t>& uncovered, std::size_t samples) {
-  return std::to_string(uncovered.size()) + " of " + std::to_string(samples) + " samples lie" +
-         (uncovered.size() == 1 ? "s" : "") + " in no ball";
-}
-
-}  // namespace
-
 void require_memory(std::int64_t entries, const CoverMatrixOptions& options, Monitor& monitor) {
   const double bytes = 4.0 * static_cast<double>(entries);
   const MemoryLimit memory(monitor);
@@ -119,7 +120,8 @@ void require_memory(std::int64_t entries, const CoverMatrixOptions& options, Mon
           (entries > options.max_entries ? "max_entries is " + std::to_string(options.max_entries)
                                          : memory.text()),
       entries > options.max_entries ? "enlarge the balls less, thin the sample, or raise max_entries"
-                                    : "enlarge the balls less, thin the sample, or grant more memory");
+                                    : "enlarge the balls less, thin the sample, grant more memory, or lower "
+                                      "full_entries");
 }
 
 void require_coverable(const Balls& balls, const PointSet& points) {
@@ -183,7 +185,7 @@ CoverMatrix cover_matrix(const Balls& balls, const PointSet& points, const Cover
 
   std::vector<std::int64_t> offsets(m + 1);
   std::vector<BlockHits> kept(blocks_of(m, block));
-  std::atomic<std::int64_t> room{hits_per_ball * static_cast<std::int64_t>(m)};
+  std::atomic<std::int64_t> room{std::min(most_hits, hits_per_ball * static_cast<std::int64_t>(m))};
   tbb::enumerable_thread_specific<BlockHits> asked;
   for_each_block(m, block, monitor, 0.1, 0.4, [&](std::size_t b, std::size_t, std::size_t) {
     BlockHits& found = asked.local();
@@ -197,6 +199,11 @@ CoverMatrix cover_matrix(const Balls& balls, const PointSet& points, const Cover
   const std::int64_t longest = *std::max_element(offsets.begin(), offsets.end());
   for (std::size_t i = 0; i < m; ++i) offsets[i + 1] += offsets[i];
   const std::int64_t entries = offsets[m];
+  if (entries > options.full_entries) {
+    kept.clear();
+    PartMonitor rest(monitor, 0.4, 1);
+    return large_cover_matrix(balls, points, options, rest);
+  }
   require_memory(entries, options, monitor);
 
   // Not initialised, and with room for the rows of uncovered samples; untouched pages cost nothing.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "base/monitor.hpp"
 #include "types/balls.hpp"
@@ -19,6 +20,7 @@ enum class UncoveredPolicy : std::uint8_t {
 
 struct CoverMatrixOptions {
   UncoveredPolicy uncovered = UncoveredPolicy::report;
+  std::int64_t full_entries = 60'000'000;    // a matrix of more has candidates alone: large_cover_matrix
   std::int64_t max_entries = 2'000'000'000;  // 4 bytes each; a larger matrix is refused before it is made
 };
 
@@ -30,6 +32,9 @@ struct CoverMatrix {
 /// Which ball covers which sample, decided by membership.hpp; the samples that define a ball are in it.
 ///
 /// - The lower bound of the result is ceil(columns / longest row).
+/// - A matrix of more than `full_entries` entries is not made: its rows are the balls that a good cover may
+/// be
+///   made of, and its bound has a certificate (large_cover_matrix.hpp).
 /// - Rows ascend; the result does not depend on the number of threads.
 /// - Time O((m + n) log n + entries), memory 4 bytes per entry, 70 bytes per sample, at most 1.2 KB per ball.
 ///
@@ -38,6 +43,9 @@ struct CoverMatrix {
 /// under UncoveredPolicy::error.
 CoverMatrix cover_matrix(const Balls& balls, const PointSet& points, const CoverMatrixOptions& options = {},
                          Monitor& monitor = no_monitor());
+
+/// `balls` and one ball of radius 0 at each of `samples`, which it is defined by.
+Balls with_points(const Balls& balls, const PointSet& points, const std::vector<std::int32_t>& samples);
 
 /// Refuses a matrix of more than `max_entries` entries or larger than the memory that the monitor grants.
 void require_memory(std::int64_t entries, const CoverMatrixOptions& options, Monitor& monitor);

@@ -19,15 +19,19 @@ struct CoverMatrixNode {
   CoverMatrixOptions options;
 
   static void declare(NodeDecl<CoverMatrixNode>& d) {
-    d.id("CoverMatrix", 2).summary("Find out which ball covers which sample.");
+    d.id("CoverMatrix", 3).summary("Find out which ball covers which sample.");
     d.doc(
         "Entry (i, j) of the matrix is 1 iff sample j lies in ball i: |c - s|^2 <= r^2 (1 + 2^-30), or the "
         "sample "
-        "defines the ball. Accepts any balls, also overlapping, equal or empty ones. Refuses coordinates "
+        "defines the ball. A matrix of more than `full_entries` entries is not made: a lower bound with a "
+        "certificate comes first, from few samples and all balls, and its prices tell which balls a good "
+        "cover "
+        "may be made of; these alone are rows. Accepts any balls, also overlapping, equal or empty ones. "
+        "Refuses coordinates "
         "beyond "
         "1e140 and defining samples that are not among the points.");
     d.avoid_when(
-        "the balls cover each sample hundreds of times: thin the sample or enlarge less, the matrix grows "
+        "the balls cover each sample thousands of times: thin the sample or enlarge less, the matrix grows "
         "with the number of (ball, sample) pairs.");
     d.cites("kornberger2010", "3.6.1");
     d.input("balls", &CoverMatrixNode::balls).doc("candidate balls, the rows");
@@ -49,6 +53,13 @@ struct CoverMatrixNode {
               {UncoveredPolicy::error, "error", "the node fails and names the sample"},
               {UncoveredPolicy::report, "report", "the sample is left out and listed in the result"}})
         .doc("what becomes of a sample that lies in no ball");
+    d.param("full_entries", &CoverMatrixNode::options, &CoverMatrixOptions::full_entries)
+        .unit("entries of 4 bytes")
+        .at_least(0)
+        .doc(
+            "a larger matrix has candidates alone as rows, a few dozen million entries; what Reduce and "
+            "solvers "
+            "find out then proves nothing, the bound that comes with the matrix does");
     d.param("max_entries", &CoverMatrixNode::options, &CoverMatrixOptions::max_entries)
         .unit("entries of 4 bytes")
         .at_least(0)

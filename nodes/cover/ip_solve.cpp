@@ -161,7 +161,9 @@ CoverState ip_solve(const CoverState& state, IpSolver& solver, const IpSolveOpti
     const auto choose_rows = [&](const Ids& positions, auto how_of) {
       for (const std::int32_t p : positions) choose_row(rows[static_cast<std::size_t>(p)], how_of);
     };
-    const auto exactly = [](std::int32_t) { return Choice::exact; };
+    const auto exactly = [&state](std::int32_t) {
+      return state.left_out > 0 ? Choice::trusted : Choice::exact;
+    };
     if (const std::int32_t whole = small ? parts.whole_row(k) : -1; whole >= 0) {
       choose_row(whole, exactly);
       prices.add(state.column_ids[static_cast<std::size_t>(columns[0])], price_unit);

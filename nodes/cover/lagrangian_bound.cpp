@@ -121,14 +121,10 @@ std::span<const std::int32_t> take_excess(const Reals& loads, double& bound,
   return {changed.data(), count};
 }
 
-/// The multipliers of the best bound L(u) that was met. `Number` holds the number of columns.
-template <class Number>
-Reals climb(const Part& part, const LagrangianBoundOptions& options, Monitor& monitor) {
-  const std::size_t rows = part.rows.size(), columns = part.columns.size();
-  // The share of each sample in the longest row that contains it: the prices of Theorem 3.8.
-  Reals u(columns + 1);  // and a zero
-  Lookout look(monitor);
-  for (std::size_t c = 0; c < columns; ++c) {
+/// The share of each sample in the longest row that contains it: the prices of Theorem 3.8.
+Reals shares(const Part& part, Lookout& look) {
+  Reals u(part.columns.size());
+  for (std::size_t c = 0; c < u.size(); ++c) {
     look(part.columns.degree(c));
     std::size_t longest = 1;
     for (const std::int32_t i : part.columns[c]) {
@@ -136,6 +132,19 @@ Reals climb(const Part& part, const LagrangianBoundOptions& options, Monitor& mo
     }
     u[c] = 1.0F / static_cast<float>(longest);
   }
+  return u;
+}
+
+/// The multipliers of the best bound L(u) that was met. `Number` holds the number of columns. `fractions` of
+/// the rows, or null when nobody asks for them.
+template <class Number>
+Reals climb(const Part& part, const LagrangianBoundOptions& options, std::span<const float> start,
+            Reals* fractions, Monitor& monitor) {
+  constexpr float newest = 0.02F;  // what the last iteration counts among the fractions
+  const std::size_t rows = part.rows.size(), columns = part.columns.size();
+  Lookout look(monitor);
+  Reals u = start.empty() ? shares(part, look) : Reals(start.begin(), start.end());
+  u.push_back(0);
   const RowSums<Number> row_sums(part.rows, columns, look);
   Reals best = u, direction(columns), loads(rows);
   // 1 less the rows of each column whose load is more than 1: these change little. Whole numbers, so the
@@ -146,8 +155,8 @@ Reals climb(const Part& part, const LagrangianBoundOptions& options, Monitor& mo
   const auto upper = static_cast<double>(greedy_rows(part.rows, columns, monitor).size());
   const auto momentum = static_cast<float>(options.momentum);
   constexpr float least_slope[] = {-std::numeric_limits<float>::infinity(), 0.0F};
-  double best_bound = 0, factor = 1;
-  std::int64_t waited = 0;
+  double best_bound = 0, factor = options.first_step;
+  std::int64_t waited = 0, since_best = 0;
   for (std::int64_t t = 0; t < options.iterations; ++t) {
     if (monitor.cancelled()) throw Cancelled();
     double bound = sum({u.data(), columns});
@@ -158,14 +167,28 @@ Reals climb(const Part& part, const LagrangianBoundOptions& options, Monitor& mo
       const float by = loaded[i] != 0 ? -1.0F : 1.0F;
       for (const std::int32_t c : part.rows[i]) slope[static_cast<std::size_t>(c)] += by;
     }
+    if (fractions != nullptr) {
+      for (std::size_t i = 0; i < rows; ++i) {
+        (*fractions)[i] += newest * (static_cast<float>(loaded[i]) - (*fractions)[i]);
+      }
+    }
     if (bound > best_bound * (1 + 1e-7)) {
       best_bound = bound;
       best = u;
-      waited = 0;
-    } else if (++waited >= options.patience) {
-      factor *= options.shrink;
-      waited = 0;
-      if (factor < 1e-4) break;
+      waited = since_best = 0;
+    } else {
+      ++since_best;
+      if (++waited >= options.patience) {
+        factor *= options.shrink;
+        waited = 0;
+        if (factor < 1e-4) break;
+      }
+    }
+    if (options.return_to_best && since_best >= 2 * options.patience) {
+      since_best = 0;
+      u = best;
+      std::fill(direction.begin(), direction.end(), 0.0F);
+      continue;
     }
     if (best_bound > upper - 1 + 1e-3) break;  // nothing is left to prove
     double norm = 0;
@@ -221,22 +244,38 @@ void repair(const Part& part, Units& prices, Monitor& monitor) {
 
 }  // namespace
 
-std::vector<std::int32_t> lagrangian_prices(const Part& part, const LagrangianBoundOptions& options,
-                                            Monitor& monitor) {
-  const bool few = part.columns.size() <= std::numeric_limits<std::uint16_t>::max();
-  const Reals u =
-      few ? climb<std::uint16_t>(part, options, monitor) : climb<std::int32_t>(part, options, monitor);
-  Units prices(u.size());
-  for (std::size_t c = 0; c < u.size(); ++c) {
-    prices[c] = static_cast<std::int64_t>(std::min(u[c], 1.0F) * static_cast<float>(price_unit));
+Relaxation relax(const Part& part, const LagrangianBoundOptions& options, std::span<const float> start,
+                 Monitor& monitor) {
+  Relaxation result{{}, Reals(part.rows.size())};
+  result.prices = part.columns.size() <= std::numeric_limits<std::uint16_t>::max()
+                      ? climb<std::uint16_t>(part, options, start, &result.fractions, monitor)
+                      : climb<std::int32_t>(part, options, start, &result.fractions, monitor);
+  return result;
+}
+
+std::vector<std::int32_t> feasible_prices(const Part& part, std::span<const float> multipliers,
+                                          Monitor& monitor) {
+  Units prices(multipliers.size());
+  for (std::size_t c = 0; c < multipliers.size(); ++c) {
+    prices[c] = static_cast<std::int64_t>(std::min(multipliers[c], 1.0F) * static_cast<float>(price_unit));
   }
   repair(part, prices, monitor);
   return {prices.begin(), prices.end()};
 }
 
+std::vector<std::int32_t> lagrangian_prices(const Part& part, const LagrangianBoundOptions& options,
+                                            Monitor& monitor) {
+  const bool few = part.columns.size() <= std::numeric_limits<std::uint16_t>::max();
+  return feasible_prices(part,
+                         few ? climb<std::uint16_t>(part, options, {}, nullptr, monitor)
+                             : climb<std::int32_t>(part, options, {}, nullptr, monitor),
+                         monitor);
+}
+
 CoverState lagrangian_bound(const CoverState& state, const LagrangianBoundOptions& options,
                             Monitor& monitor) {
   monitor.step(0);
+  if (state.left_out > 0) return state;  // the rows say nothing about the others
   const Parts parts(state, monitor);
   std::vector<std::vector<std::int32_t>> prices(parts.count());
   std::atomic<std::size_t> entries_done{0};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/monitor.hpp"
@@ -12,9 +13,17 @@ namespace ballflow::geometry {
 
 struct LagrangianBoundOptions {
   std::int64_t iterations = 1500;  // at most, for each component; 0 only spreads prices greedily
-  double momentum = 0.95;      // share of the previous direction in the next one; 0 is the plain subgradient
-  std::int64_t patience = 30;  // iterations without a better bound before the step gets shorter
-  double shrink = 0.7;         // factor of the step then
+  double momentum = 0.95;       // share of the previous direction in the next one; 0 is the plain subgradient
+  std::int64_t patience = 30;   // iterations without a better bound before the step gets shorter
+  double shrink = 0.7;          // factor of the step then
+  double first_step = 1;        // factor of the first step; small ones keep near multipliers that are good
+  bool return_to_best = false;  // after twice the patience without a better bound: from the best multipliers
+};
+
+/// The relaxation of one component.
+struct Relaxation {
+  std::vector<float> prices;     // of each column, the best u; no more than 1
+  std::vector<float> fractions;  // of each row: how often its load was above 1, lately more than long ago
 };
 
 /// Relaxes the covering constraints of every connected component with multipliers u_j >= 0 of its samples:
@@ -33,8 +42,17 @@ struct LagrangianBoundOptions {
 CoverState lagrangian_bound(const CoverState& state, const LagrangianBoundOptions& options = {},
                             Monitor& monitor = no_monitor());
 
+/// Climbs L as lagrangian_bound does, from the multipliers `start` of the columns; empty: their shares in the
+/// longest row that contains them. Fractions are an approximate solution of the linear relaxation.
+Relaxation relax(const Part& part, const LagrangianBoundOptions& options, std::span<const float> start,
+                 Monitor& monitor);
+
 /// Prices of the columns of one component, in 1 / price_unit: no row costs more than 1.
 std::vector<std::int32_t> lagrangian_prices(const Part& part, const LagrangianBoundOptions& options,
                                             Monitor& monitor);
+
+/// The same of multipliers: lowered where a row costs more than 1, raised where all rows have room.
+std::vector<std::int32_t> feasible_prices(const Part& part, std::span<const float> multipliers,
+                                          Monitor& monitor);
 
 }  // namespace ballflow::geometry

@@ -139,7 +139,8 @@ CoverState reduce(const CoverState& state, const ReduceOptions& options, Monitor
     for (std::size_t i = 0; i < essential.size(); ++i) {
       if (essential[i] == 0) continue;
       chosen.push_back(matrix.row_ids[i]);
-      chosen_how.push_back(static_cast<std::uint8_t>(Choice::essential));
+      chosen_how.push_back(
+          static_cast<std::uint8_t>(state.left_out > 0 ? Choice::searched : Choice::essential));
       witnesses.add(witness[i], price_unit);
       witnesses.close();
     }

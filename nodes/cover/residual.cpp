@@ -73,6 +73,7 @@ std::int64_t optimal_choices(const CoverState& state) {
 }
 
 void raise_lower_bound(CoverState& state, std::int64_t bound, BoundHow how) {
+  if (state.left_out > 0 && how != BoundHow::certified) return;
   const auto ground = static_cast<std::uint8_t>(how);
   if (bound < state.lower_bound || (bound == state.lower_bound && ground <= state.lower_bound_how)) return;
   state.lower_bound = bound;

@@ -58,7 +58,8 @@ CoverState choose(const CoverState& state, std::span<const std::int32_t> rows, C
 /// OPT(R) >= ceil(columns / longest row).
 void raise_lower_bound(CoverState& state);
 
-/// Takes `bound` over when it is more than the lower bound known, or as much on better ground.
+/// Takes `bound` over when it is more than the lower bound known, or as much on better ground. Of a matrix
+/// that leaves balls out only what a certificate proves: these and the next do nothing else with it.
 void raise_lower_bound(CoverState& state, std::int64_t bound, BoundHow how);
 
 /// e of above: the essential and exact choices.

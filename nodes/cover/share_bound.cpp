@@ -11,6 +11,7 @@ namespace ballflow::geometry {
 
 CoverState share_bound(const CoverState& state, Monitor& monitor) {
   monitor.step(0);
+  if (state.left_out > 0) return state;  // the rows say nothing about the others
   std::vector<std::int64_t> longest(state.cols(), 1);
   Lookout look(monitor);
   for (std::size_t i = 0; i < state.rows(); ++i) {

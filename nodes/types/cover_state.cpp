@@ -173,6 +173,9 @@ std::string broken_invariant(const CoverState& state) {
   if (state.samples < 0 || state.samples > most) {
     return "samples = " + std::to_string(state.samples) + " is out of range";
   }
+  if (state.left_out < 0 || state.left_out > state.balls) {
+    return "left_out = " + std::to_string(state.left_out) + " of " + std::to_string(state.balls) + " balls";
+  }
   if (auto broken = broken_ids("row_ids", state.row_ids, state.balls); !broken.empty()) return broken;
   if (auto broken = broken_ids("column_ids", state.column_ids, state.samples); !broken.empty()) return broken;
   if (auto broken = broken_ids("uncovered", state.uncovered, state.samples); !broken.empty()) return broken;

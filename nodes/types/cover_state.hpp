@@ -17,8 +17,8 @@ enum class Choice : std::uint8_t {
   greedy = 2,     // a greedy pick: each may cost one ball more than the optimum (Lemma 3.7)
   trusted = 3,    // from a solver that stopped before it proved optimality
   all = 4,        // kept because nothing was pruned
-  searched = 5,   // kept by local search: nothing is claimed about it
-  returned = 6,   // returned after the cover was finished, to keep the topology of the union
+  searched = 5,  // kept by local search, or needed by a matrix without all balls: nothing is claimed about it
+  returned = 6,  // returned after the cover was finished, to keep the topology of the union
 };
 
 /// How a lower bound was obtained, the weakest ground first.
@@ -36,6 +36,10 @@ inline constexpr std::int64_t price_unit = std::int64_t{1} << 20;
 struct CoverState {
   std::int64_t balls = 0;    // number of balls of the original instance
   std::int64_t samples = 0;  // number of samples of the original instance
+  // Balls that are no row although they may cover samples of columns, because the matrix would be too large.
+  // While there are any, what a reduction or a solver finds out about the matrix proves nothing about the
+  // instance: it raises no bound, and no choice is essential or exact.
+  std::int64_t left_out = 0;
 
   // Residual matrix, rows = balls, columns = samples, compressed by rows, every row ascending. Row i
   // covers columns[row_offsets[i] .. row_offsets[i + 1]), which index column_ids.

@@ -8,10 +8,12 @@ namespace ballflow {
 
 void TypeOf<geometry::CoverState>::declare(TypeDecl<geometry::CoverState>& d) {
   using T = geometry::CoverState;
-  d.id("CoverState", 2)
+  d.id("CoverState", 3)
       .doc("A set covering instance on its way to a solution: residual matrix, choices, bounds.");
   d.scalar("balls", &T::balls).doc("number of balls of the original instance");
   d.scalar("samples", &T::samples).doc("number of samples of the original instance");
+  d.scalar("left_out", &T::left_out)
+      .doc("balls that are no row because the matrix would be too large: candidates alone are rows");
   d.array("row_offsets", &T::row_offsets).length("r+1").doc("where the columns of a row begin");
   d.array("columns", &T::columns).length("nnz").doc("column indices of the residual matrix, rows ascending");
   d.array("row_ids", &T::row_ids).length("r").doc("ball of each row");
@@ -45,7 +47,8 @@ void TypeOf<geometry::CoverState>::declare(TypeDecl<geometry::CoverState>& d) {
       .summary("exact", "chosen by exact optimisation");
   d.summary("greedy", "chosen greedily: each may cost one ball more than the optimum");
   d.summary("trusted", "from a solver that stopped before it proved optimality");
-  d.summary("searched", "kept by local search");
+  d.summary("searched", "kept by local search, or needed by a matrix that leaves balls out");
+  d.summary("left_out", "balls that are no row because the matrix would be too large");
   d.summary("returned", "returned by TopologyRepair, in its output only");
   d.summary("uncovered", "samples that no ball covers");
   d.summarize([](const T& v) {
@@ -67,6 +70,7 @@ void TypeOf<geometry::CoverState>::declare(TypeDecl<geometry::CoverState>& d) {
                    {"greedy", v.count(geometry::Choice::greedy)},
                    {"trusted", v.count(geometry::Choice::trusted)},
                    {"searched", v.count(geometry::Choice::searched)},
+                   {"left_out", v.left_out},
                    {"uncovered", v.uncovered.size()}};
   });
   d.check([](const T& v) { return geometry::broken_invariant(v); });

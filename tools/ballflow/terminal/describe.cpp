@@ -68,6 +68,7 @@ std::string cover(const Json& s) {
     return text;
   }
   std::string text = number(s, "rows") + " x " + number(s, "cols") + ", " + number(s, "nnz") + " entries";
+  if (s.value("left_out", std::int64_t{0}) > 0) text += ", " + number(s, "left_out") + " balls left out";
   if (s.contains("chosen") && s.at("chosen") != 0) text += ", " + counted(s, "chosen", "ball") + " chosen";
   return text;
 }

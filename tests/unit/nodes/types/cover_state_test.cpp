@@ -32,6 +32,8 @@ TEST(cover_state, every_broken_invariant_is_named) {
   };
   EXPECT_NE(broken([](auto& s) { s.balls = -1; }).find("balls"), std::string::npos);
   EXPECT_NE(broken([](auto& s) { s.balls = std::int64_t{1} << 31; }).find("balls"), std::string::npos);
+  EXPECT_NE(broken([](auto& s) { s.left_out = -1; }).find("left_out"), std::string::npos);
+  EXPECT_NE(broken([](auto& s) { s.left_out = 4; }).find("left_out"), std::string::npos);
   EXPECT_NE(broken([](auto& s) { s.samples = 3; }).find("column_ids[2]"), std::string::npos);
   EXPECT_NE(broken([](auto& s) { s.row_ids = {1, 0}; }).find("row_ids[1]"), std::string::npos);
   EXPECT_NE(broken([](auto& s) { s.uncovered = {1}; }).find("sample 1"), std::string::npos);
