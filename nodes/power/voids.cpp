@@ -116,13 +116,25 @@ std::vector<Voids::Cell> Voids::between(const Place& a, const Place& b) const {
 /// `other` lies in the union `other`.
 Voids::Place Voids::located(const Cell& orthogonal_to, const Voids& other) const {
   if (other.label_.empty()) return {};
-  const Point point = equal_power(diagram_, orthogonal_to);
-  const auto corner = [&](std::int32_t v) { return exact(other.diagram_.centers[at(v)]); };
-  // Walk through facets that separate the cell from the point; regular triangulations have no circles.
+  const Place place = other.diagram_place(equal_power(diagram_, orthogonal_to));
+  if (place.number < 0)
+    throw std::logic_error("a point outside of a union of balls lies in its dual complex");
+  return place;
+}
+
+Voids::Place Voids::place_of(Vec3 point) const {
+  if (label_.empty()) return {};
+  return diagram_place(exact(point));
+}
+
+/// Walks through facets that separate the cell from the point; regular triangulations have no circles.
+template <class ExactPoint>
+Voids::Place Voids::diagram_place(const ExactPoint& point) const {
+  const auto corner = [&](std::int32_t v) { return exact(diagram_.centers[at(v)]); };
   std::size_t c = 0;
-  while (!finite(other.diagram_.cells[c])) ++c;
+  while (!finite(diagram_.cells[c])) ++c;
   for (;;) {
-    const Cell& cell = other.diagram_.cells[c];
+    const Cell& cell = diagram_.cells[c];
     if (!finite(cell)) return {};
     const Point p[4] = {corner(cell[0]), corner(cell[1]), corner(cell[2]), corner(cell[3])};
     std::size_t k = 0;
@@ -131,12 +143,9 @@ Voids::Place Voids::located(const Cell& orthogonal_to, const Voids& other) const
       q[k] = point;
       if (CGAL::orientation(q[0], q[1], q[2], q[3]) == CGAL::NEGATIVE) break;
     }
-    if (k == 4) break;
-    c = at(other.diagram_.neighbors[c][k]);
+    if (k == 4) return {label_[c], static_cast<std::int32_t>(c)};
+    c = at(diagram_.neighbors[c][k]);
   }
-  if (other.label_[c] < 0)
-    throw std::logic_error("a point outside of a union of balls lies in its dual complex");
-  return {other.label_[c], static_cast<std::int32_t>(c)};
 }
 
 PowerVertex power_vertex(const SimplicialComplex& complex, const Voids::Cell& cell) {

@@ -36,15 +36,22 @@ class Voids {
   /// Entry v is the place in `other`, a union that lies in this one, of a point of void v.
   std::vector<Place> inside(const Voids& other) const;
 
+  /// The place of a point outside of the union; number -1 where it lies in the dual complex, hence in the
+  /// union.
+  Place place_of(Vec3 point) const;
+
+  /// The void that a cell of the diagram is part of, -1 where the cell is in K.
+  std::int32_t number_of(std::size_t cell) const { return label_[cell]; }
+  /// The facet opposite corner k of a cell is not in K: it joins two cells of one void.
+  bool open(std::size_t cell, std::size_t k) const { return (diagram_.in_complex[cell] >> k & 1) == 0; }
+
   /// Cells on a shortest way between two places in one void, as `cells_of` has them.
   std::vector<Cell> between(const Place& a, const Place& b) const;
 
  private:
   Place located(const Cell& orthogonal_to, const Voids& other) const;
-  bool open(std::size_t cell, std::size_t k) const {  // the facet opposite corner k is not in K
-    return (diagram_.in_complex[cell] >> k & 1) == 0;
-  }
-
+  template <class ExactPoint>
+  Place diagram_place(const ExactPoint& point) const;
   const PowerDiagram& diagram_;
   std::vector<std::int32_t> label_;  // per cell, -1 for cells in K
   std::vector<std::vector<Cell>> cells_of_;

@@ -4,6 +4,7 @@
 #include "types/ball_distance.hpp"
 #include "types/path.hpp"
 #include "types/type_of.hpp"
+#include "types/way.hpp"
 
 namespace ballflow {
 
@@ -15,6 +16,11 @@ struct TypeOf<geometry::BallDistance> {
 template <>
 struct TypeOf<geometry::Path> {
   static void declare(TypeDecl<geometry::Path>& d);
+};
+
+template <>
+struct TypeOf<geometry::Way> {
+  static void declare(TypeDecl<geometry::Way>& d);
 };
 
 }  // namespace ballflow

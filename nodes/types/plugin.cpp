@@ -18,4 +18,4 @@ BALLFLOW_PLUGIN(
                             MedialAxis, MeshReport, MinkowskiReport, NoiseReport, OutlineComparison, Path,
                             PointSet, PoleSet, Polygon2, PowerDiagram, Refinement, Robot, RobotSpheres,
                             SampleAssignment, SimplicialComplex, SurfaceBallsReport, SurfaceReport,
-                            TopologyCheck, TopologyTable, TriangleMesh>()))
+                            TopologyCheck, TopologyTable, TriangleMesh, Way>()))

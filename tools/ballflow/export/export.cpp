@@ -10,13 +10,25 @@ namespace ballflow {
 namespace {
 
 const std::vector<TypeFormats>& table() {
-  static const std::vector<TypeFormats> types = {
-      point_set_formats(),      triangle_mesh_formats(),      balls_formats(),
-      pole_set_formats(),       local_feature_size_formats(), growth_formats(),
-      cover_state_formats(),    simplicial_complex_formats(), medial_axis_formats(),
-      topology_table_formats(), sample_assignment_formats(),  surface_report_formats(),
-      robot_formats(),          robot_spheres_formats(),      polygon2_formats(),
-      disc_outline_formats(),   ball_distance_formats(),      path_formats()};
+  static const std::vector<TypeFormats> types = {point_set_formats(),
+                                                 triangle_mesh_formats(),
+                                                 balls_formats(),
+                                                 pole_set_formats(),
+                                                 local_feature_size_formats(),
+                                                 growth_formats(),
+                                                 cover_state_formats(),
+                                                 simplicial_complex_formats(),
+                                                 medial_axis_formats(),
+                                                 topology_table_formats(),
+                                                 sample_assignment_formats(),
+                                                 surface_report_formats(),
+                                                 robot_formats(),
+                                                 robot_spheres_formats(),
+                                                 polygon2_formats(),
+                                                 disc_outline_formats(),
+                                                 ball_distance_formats(),
+                                                 path_formats(),
+                                                 way_formats()};
   return types;
 }
 

@@ -18,6 +18,7 @@
 //   DiscOutline        svg csv                     arcs as they are
 //   BallDistance       csv ply obj vtp             the nearest pair, and those below the threshold
 //   Path               csv ply obj vtp npy         points with radii; PathBalls reads the csv
+//   Way                csv ply obj vtp npy         radius: the clearance of each point
 //   every type         json safetensors              summary and shapes; the artifact, byte for byte
 // clang-format on
 //

@@ -32,5 +32,6 @@ TypeLayers polygon2_layers();
 TypeLayers disc_outline_layers();
 TypeLayers ball_distance_layers();
 TypeLayers path_layers();
+TypeLayers way_layers();
 
 }  // namespace ballflow::show

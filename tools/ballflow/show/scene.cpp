@@ -27,7 +27,8 @@ const std::vector<TypeLayers>& table() {
                                                 polygon2_layers(),
                                                 disc_outline_layers(),
                                                 ball_distance_layers(),
-                                                path_layers()};
+                                                path_layers(),
+                                                way_layers()};
   return types;
 }
 

@@ -266,6 +266,7 @@ std::string describe(const OutputEntry& output) {
          if (s.at("solids_words").is_string()) text += "; " + s.at("solids_words").get<std::string>();
          return text;
        }},
+      {"Way", [](const Json& s) { return s.at("words").get<std::string>(); }},
       {"Path",
        [](const Json& s) {
          std::string text = counted(s, "points", "point") + ", " + rounded(s, "length") + " long";

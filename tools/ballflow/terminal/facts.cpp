@@ -12,7 +12,9 @@ class Facts {
   Facts(const NamedOutputs& outputs, const Json& params) : outputs_(outputs), params_(params) {}
 
   std::vector<std::string> find() {
-    if (const OutputEntry* const distance = of_type("BallDistance")) facts_.push_back(describe(*distance));
+    for (const char* type : {"BallDistance", "Way"}) {
+      if (const OutputEntry* const answer = of_type(type)) facts_.push_back(describe(*answer));
+    }
     balls();
     topology();
     coverage();

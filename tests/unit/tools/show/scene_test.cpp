@@ -105,6 +105,28 @@ TEST(scene, draws_paths_as_segments_and_a_path_of_one_point_as_a_point) {
   EXPECT_EQ(shown(path)[0].shape, Shape::points);
 }
 
+TEST(scene, draws_ways_by_their_clearance_and_their_ends_also_where_there_is_none) {
+  geometry::Way way;
+  way.balls = 1;
+  way.start = {0, 0, 0};
+  way.goal = {2, 0, 0};
+  way.start_component = way.goal_component = 0;
+  way.points = {{0, 0, 0}, {1, 1, 0}, {2, 0, 0}};
+  way.clearances = {0.5, 1, 0.25};
+  way.clearance = 0.25;
+  const auto layers = shown(way);
+  ASSERT_EQ(names(layers), (Names{"way", "start and goal"}));
+  EXPECT_EQ(layers[0].segments, (std::vector<std::array<std::uint32_t, 2>>{{0, 1}, {1, 2}}));
+  EXPECT_EQ(layers[0].find(layers[0].colour_by)->values, (std::vector<double>{0.5, 1, 0.25}));
+  EXPECT_EQ(layers[1].find(layers[1].colour_by)->values, (std::vector<double>{0, 1}));
+  way.answer = 2;
+  way.start_component = -1;
+  way.start_ball = 0;
+  way.points = {};
+  way.clearances = {};
+  EXPECT_EQ(names(shown(way)), Names{"start and goal"});
+}
+
 TEST(scene, tells_inner_from_outer_poles) {
   PoleSet poles;
   poles.centers = std::vector<Vec3>{{0, 0, 0}, {9, 0, 0}, {0, 1, 0}};
