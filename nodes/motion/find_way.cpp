@@ -59,6 +59,18 @@ std::vector<Vec3> straightened(const std::vector<Vec3>& way, double clearance, c
   return kept;
 }
 
+/// Points between the points, so that corners can be cut nearer to them.
+std::vector<Vec3> divided(const std::vector<Vec3>& way) {
+  constexpr int pieces = 8;
+  std::vector<Vec3> points{way.front()};
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    for (int k = 1; k < pieces; ++k)
+      points.push_back(way[i - 1] + (static_cast<double>(k) / pieces) * (way[i] - way[i - 1]));
+    points.push_back(way[i]);
+  }
+  return points;
+}
+
 double clearance_of(const std::vector<Vec3>& way, const FreeSegments& segments) {
   double least = HUGE_VAL;
   for (std::size_t i = 0; i < way.size(); ++i)
@@ -133,7 +145,16 @@ Way find_way(const Balls& balls, const PowerDiagram& diagram, Vec3 start, Vec3 g
   if (points.size() < 2) points = {start, goal};  // one place is a way to itself
   const double clearance = clearance_of(points, segments);
   monitor.step(0.7);
-  if (clearance > 0) points = straightened(points, clearance, segments, monitor);
+  if (clearance > 0) {
+    points = straightened(points, clearance, segments, monitor);
+    // Every round cuts corners off that are left; after some there is little to gain, and few points to
+    // divide.
+    for (int round = 0; round < 4 && points.size() > 2 && points.size() < 200; ++round) {
+      // What lies on a segment has its clearance, but for rounding.
+      const double enough = clearance_of(points, segments) * (1 - 1e-9);
+      points = straightened(divided(points), enough, segments, monitor);
+    }
+  }
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     if (monitor.cancelled()) throw Cancelled();
     if (!segments.free(points[i], points[i + 1])) return way;  // rounding has closed it

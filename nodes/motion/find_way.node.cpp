@@ -20,7 +20,7 @@ struct FindWay {
   FindWayOptions options;
 
   static void declare(NodeDecl<FindWay>& d) {
-    d.id("FindWay", 1).summary("Whether there is a way between two points around a union of balls, and one.");
+    d.id("FindWay", 2).summary("Whether there is a way between two points around a union of balls, and one.");
     d.doc(
         "Start and goal can be joined outside of the balls if they are in one component of what the union "
         "leaves of "
