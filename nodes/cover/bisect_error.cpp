@@ -50,7 +50,7 @@ Bisection next(Bisection search, const BisectErrorOptions& options, double perce
                            short_number(allowed) + " that are allowed (" + short_number(options.share) +
                            " of max_error)",
                        "ask for a max_error of " + short_number(1.01 * error / options.share) +
-                           " or more, or sample more densely (a smaller delta)");
+                           " or more, or sample more densely (a smaller delta, or in the plane spacing)");
     }
     const double aimed = search.value - 100 * (search.error_before - allowed) / edge;
     search.value = search.tried < 3 ? std::max(aimed, search.value / 4) : search.value / 4;

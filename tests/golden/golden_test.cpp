@@ -57,6 +57,10 @@ const std::vector<Case>& cases() {
       {"balls", "balls", {}, kNoTopology},  // a ring of balls and one ball apart: Betti 2 1 0
       {"minkowski_sum", "minkowski_sum",
        as_in_the_thesis({{"a", "shape:torus?n=2000"}, {"b", "shape:knot?n=3000&R=0.2"}}), kNoTopology},
+      {"gear_plus_star_outer",
+       "minkowski_2d",
+       {{"a", "polygon:gear"}, {"b", "polygon:star?R=0.3"}, {"mode", "outer"}, {"max_error", "0.03"}},
+       kNoTopology},
       {"minkowski_sum_outer", "minkowski_sum",
        as_in_the_thesis({{"a", "shape:torus?n=1000"}, {"b", "shape:box?n=500&R=0.3"}, {"mode", "outer"}}),
        kNoTopology},
