@@ -27,12 +27,12 @@ std::int64_t most_sums(double bytes_per_sum, const MemoryLimit& memory) {
 
 void require_memory(std::int64_t sums, double bytes_per_sum, const MemoryLimit& memory, bool more) {
   if (sums <= most_sums(bytes_per_sum, memory) && !more) return;
-  throw InputError(
-      (more ? "more than " : "") + std::to_string(sums) +
-          " sums of two balls would have to be triangulated, which takes about " +
-          size_text(bytes_per_sum * static_cast<double>(sums)) + "; " + memory.text(),
-      "prune the inputs more (a larger epsilon), use algorithm filtered or memory, or grant more "
-      "memory");
+  throw InputError((more ? "more than " : "") + std::to_string(sums) +
+                       " sums of two balls would have to be triangulated, which takes about " +
+                       size_text(bytes_per_sum * static_cast<double>(sums)) + "; " + memory.text(),
+                   "prune the inputs more (a larger epsilon), use algorithm filtered (in space also memory), "
+                   "or grant more "
+                   "memory");
 }
 
 std::vector<Ball> all_sums(const Sums& sums, double bytes_per_sum, Monitor& monitor) {
