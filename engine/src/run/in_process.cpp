@@ -61,7 +61,10 @@ class CpuMeter : public tbb::task_scheduler_observer {
 class Arenas {
  public:
   struct Arena {
-    explicit Arena(unsigned count) : threads(count), arena(static_cast<int>(count)), meter(arena) {}
+    // One place more than there are threads: a thread of the scheduler that enters an arena counts as one of
+    // those that the arena has asked for, and with no other asked for nobody would come to help it.
+    explicit Arena(unsigned count)
+        : threads(count), arena(static_cast<int>(count > 1 ? count + 1 : 1)), meter(arena) {}
     unsigned threads;
     tbb::task_arena arena;
     CpuMeter meter;

@@ -68,7 +68,9 @@ const RunResult& Runner::Impl::run() {
   emit({Event::Kind::run_started});
   keep_scheduler();
   {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, options_.threads);
+    // The calling thread counts, and only waits (see run_once).
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    options_.threads + (options_.threads > 1 ? 1 : 0));
     // A round that ends with a void plan has learned the new outputs of at least one node. A node that gives
     // yet another result in every round is given up.
     for (std::size_t round = 0; !run_once(); ++round) {
@@ -153,19 +155,30 @@ bool Runner::Impl::run_once() {
     if (producers.empty()) ready.push_back(i);
   }
 
-  tbb::task_arena arena(static_cast<int>(options_.threads));
-  KeyWaits key_waits(*store_, options_.threads > 1, [this] { return stopping() || stop_starting_; });
+  const bool several = options_.threads > 1;
+  tbb::task_arena arena(static_cast<int>(options_.threads), several ? 0 : 1);
+  KeyWaits key_waits(*store_, several, [this] { return stopping() || stop_starting_; });
   arena_ = &arena;
   key_waits_ = &key_waits;
-  arena.execute([&] {
+  if (several) {
+    // All work is done by threads of the scheduler, and this one waits outside the arena: a thread that waits
+    // in it cannot help a node that runs in an arena of its own, which would then have one thread less.
     tbb::task_group group;
     group_ = &group;
-    for (const std::size_t i : ready) dispatch(i);
-    do {
-      group.wait();
-    } while (options_.threads == 1 && key_waits.wait());
-    group_ = nullptr;
-  });
+    tasks_ += ready.size();
+    for (const std::size_t i : ready) arena.enqueue(group.defer([this, i] { process(i); }));
+    group.wait();
+  } else {
+    arena.execute([&] {
+      tbb::task_group group;
+      group_ = &group;
+      for (const std::size_t i : ready) dispatch(i);
+      do {
+        group.wait();
+      } while (key_waits.wait());
+    });
+  }
+  group_ = nullptr;
   arena_ = nullptr;
   key_waits_ = nullptr;
   before_ = nullptr;
