@@ -14,7 +14,7 @@ namespace ballflow::geometry {
 
 struct CandidateOptions {
   double least_load = 0.7;            // of a candidate, by the prices of its samples
-  std::int64_t entries = 30'000'000;  // about; more candidates than this has room for are thinned out
+  std::int64_t entries = 40'000'000;  // about; more candidates than this has room for are thinned out
 };
 
 /// The balls that a cover may be made of, ascending: those whose samples cost at least `least_load` by the
