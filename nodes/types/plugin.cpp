@@ -6,6 +6,7 @@
 #include "types/motion_types.hpp"
 #include "types/planar_types.hpp"
 #include "types/power_diagram_type.hpp"
+#include "types/prior_types.hpp"
 #include "types/robot_type.hpp"
 #include "types/surface_types.hpp"
 
@@ -13,9 +14,9 @@ using namespace ballflow::geometry;
 
 BALLFLOW_PLUGIN(
     "types", "0.1.0", ballflow::node_entries<>(),
-    (ballflow::type_entries<BallCounts, BallDistance, Balls, Bisection, Comparison, CoverCheck, CoverState,
-                            DiscOutline, Enclosure, EnclosureFit, Growth, LocalFeatureSize, MassProperties,
-                            MedialAxis, MeshReport, MinkowskiReport, NoiseReport, OutlineComparison, Path,
-                            PointSet, PoleSet, Polygon2, PowerDiagram, Refinement, Robot, RobotSpheres,
-                            SampleAssignment, SimplicialComplex, SurfaceBallsReport, SurfaceReport,
-                            TopologyCheck, TopologyTable, TriangleMesh, Way>()))
+    (ballflow::type_entries<
+        BallCounts, BallDistance, Balls, Bisection, Comparison, CoverCheck, CoverState, DiscOutline,
+        Enclosure, EnclosureFit, Growth, LocalFeatureSize, MassProperties, MatchedBalls, MedialAxis,
+        MeshReport, MinkowskiReport, NoiseReport, OutlineComparison, Path, PointSet, PoleSet, Polygon2,
+        PowerDiagram, Refinement, Robot, RobotSpheres, SampleAssignment, ShapePose, SimplicialComplex,
+        SurfaceBallsReport, SurfaceReport, TopologyCheck, TopologyTable, TriangleMesh, Way>()))
