@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "search/nearest_on_triangle.hpp"
+
 namespace ballflow::geometry {
 namespace {
 
@@ -97,6 +99,14 @@ struct Sphere {
 Sphere around(const Corners& p) {
   const Vec3 center = 1.0 / 3 * (p[0] + p[1] + p[2]);
   return {center, std::max({distance(center, p[0]), distance(center, p[1]), distance(center, p[2])})};
+}
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+/// Not below the distance of a ball from a point that is `apart` from one where it is `distance`, whatever
+/// rounding does.
+double a_little_more(double distance, double apart) {
+  return distance + apart + 1e-9 * (std::abs(distance) + apart) + std::numeric_limits<double>::min();
 }
 
 }  // namespace
@@ -198,37 +208,65 @@ TriangleCover BallsForTriangles::cover(const Corners& triangle) const {
   return result;
 }
 
-double BallsForTriangles::distance_from_union(Vec3 p) const {
-  return tree_.smallest(p, std::numeric_limits<double>::infinity(), 0,
+double BallsForTriangles::distance_from_union(Vec3 p, double at_most, double enough) const {
+  return tree_.smallest(p, at_most, enough,
                         [&](std::size_t i) { return distance(p, centers_[i]) - radii_[i]; });
 }
 
-UncoveredPart BallsForTriangles::uncovered(const Corners& triangle, double size) const {
-  UncoveredPart result;
-  std::vector<Corners> waiting{triangle};
+double BallsForTriangles::gap_of_corners(const Corners& triangle) const {
+  double gap = 0;
+  for (const Vec3 corner : triangle) gap = std::max(gap, distance_from_union(corner, unbounded, gap));
+  return gap;
+}
+
+bool BallsForTriangles::none_meets(const Corners& part, Vec3 center, double radius) const {
+  const double reach = a_little_more(radius, 0);
+  return tree_.smallest(center, reach, reach, [&](std::size_t i) {
+    // A ball that reaches out by less than a billionth covers nothing to speak of.
+    const bool meets = distance(nearest_on_triangle(centers_[i], part), centers_[i]) < radii_[i] * (1 - 1e-9);
+    return meets ? distance(center, centers_[i]) - radii_[i] : unbounded;
+  }) >= reach;
+}
+
+UncoveredPart BallsForTriangles::uncovered(const Corners& triangle, double size, double settled) const {
+  UncoveredPart result{.area = 0, .gap = settled};
+  struct Waiting {
+    Corners part;
+    double at_most;  // of its center
+    bool outside;    // no ball meets it
+  };
+  std::vector<Waiting> waiting{{triangle, unbounded, false}};
   while (!waiting.empty()) {
-    const Corners part = waiting.back();
+    auto [part, at_most, outside] = waiting.back();
     waiting.pop_back();
     const auto [center, radius] = around(part);
     // From radius on all of it is outside, and down to -radius all in one ball. What is outside is of
     // interest where it may be farther away than what was met.
-    const double from_union = distance_from_union(center);
+    const double from_union = distance_from_union(center, at_most, 0);
     const std::size_t k = opposite_longest(part);
     const Vec3 a = part[(k + 1) % 3], b = part[(k + 2) % 3];
-    const bool mixed = std::abs(from_union)<radius, farther = from_union + radius> result.gap;
-    if ((mixed || (from_union > 0 && farther)) && distance(a, b) > size) {
+    const bool may_split = distance(a, b) > size, farther = a_little_more(from_union, radius) > result.gap;
+    outside =
+        outside || from_union >= radius || (from_union > 0 && may_split && none_meets(part, center, radius));
+    const bool mixed = !outside && from_union > -radius;
+    if ((mixed || (outside && farther)) && may_split) {
       const Vec3 half = 0.5 * (a + b);
       for (const std::size_t moved : {(k + 1) % 3, (k + 2) % 3}) {
         Corners child = part;
         child[moved] = half;
-        waiting.push_back(child);
+        waiting.push_back(
+            {child, a_little_more(from_union, distance(center, around(child).center)), outside});
       }
       continue;
     }
     if (!(from_union > 0)) continue;  // most of it is covered
     result.area += 0.5 * length(cross(part[1] - part[0], part[2] - part[0]));
     result.gap = std::max(result.gap, from_union);
-    for (const Vec3 corner : part) result.gap = std::max(result.gap, distance_from_union(corner));
+    if (!farther) continue;
+    for (const Vec3 corner : part) {
+      const double limit = a_little_more(from_union, distance(center, corner));
+      result.gap = std::max(result.gap, distance_from_union(corner, limit, result.gap));
+    }
   }
   return result;
 }
@@ -236,26 +274,28 @@ UncoveredPart BallsForTriangles::uncovered(const Corners& triangle, double size)
 double BallsForTriangles::gap_at_most(const Corners& triangle, double settled, double tolerance) const {
   constexpr std::int64_t most_parts = std::int64_t{1} << 20;
   // The distance from a ball is convex, so that no point of a part is farther from it than a corner.
-  const auto of_corners = [&](const Corners& part, Vec3 center) {
-    return tree_.smallest(center, std::numeric_limits<double>::infinity(),
-                          -std::numeric_limits<double>::infinity(), [&](std::size_t i) {
-                            double farthest = distance(center, centers_[i]);
-                            for (const Vec3 corner : part)
-                              farthest = std::max(farthest, distance(corner, centers_[i]));
-                            return farthest - radii_[i];
-                          });
+  const auto of_corners = [&](const Corners& part, Vec3 center, double at_most) {
+    return tree_.smallest(center, at_most, -unbounded, [&](std::size_t i) {
+      double farthest = distance(center, centers_[i]);
+      for (const Vec3 corner : part) farthest = std::max(farthest, distance(corner, centers_[i]));
+      return farthest - radii_[i];
+    });
   };
   double least = settled, most = settled;
   std::int64_t parts = 0;
-  std::vector<Corners> waiting{triangle};
+  struct Waiting {
+    Corners part;
+    double at_most;  // a ball is no farther from any of its points
+  };
+  std::vector<Waiting> waiting{{triangle, unbounded}};
   while (!waiting.empty()) {
-    const Corners part = waiting.back();
+    const auto [part, at_most] = waiting.back();
     waiting.pop_back();
     ++parts;
     const Vec3 center = around(part).center;
-    const double upper = of_corners(part, center);
+    const double upper = of_corners(part, center, at_most);
     if (upper <= most) continue;
-    least = std::max(least, distance_from_union(center));
+    least = std::max(least, distance_from_union(center, a_little_more(upper, 0), least));
     if (upper <= least + tolerance || parts >= most_parts) {
       most = upper;
       continue;
@@ -265,7 +305,7 @@ double BallsForTriangles::gap_at_most(const Corners& triangle, double settled, d
     for (const std::size_t moved : {(k + 1) % 3, (k + 2) % 3}) {
       Corners child = part;
       child[moved] = half;
-      waiting.push_back(child);
+      waiting.push_back({child, a_little_more(upper, 0)});
     }
   }
   return most;

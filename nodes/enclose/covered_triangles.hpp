@@ -36,16 +36,21 @@ class BallsForTriangles {
 
   /// See verify_enclosure.hpp. Exact.
   TriangleCover cover(const Corners& triangle) const;
-  /// Parts no longer than `size`; in doubles.
-  UncoveredPart uncovered(const Corners& triangle, double size) const;
+  /// How far the farthest corner is from the union; 0 where all are in it. Precondition: there are balls.
+  double gap_of_corners(const Corners& triangle) const;
+  /// Parts no longer than `size`; in doubles. Of a gap that is not above `settled`, that is all one learns.
+  /// Precondition: there are balls.
+  UncoveredPart uncovered(const Corners& triangle, double size, double settled) const;
   /// No point of the triangle is farther from the union than this, up to rounding, and it is at most
   /// `tolerance` above the largest distance, or above `settled`, whichever is more. (Beyond a million parts
   /// it may be more above.) Precondition: there are balls.
   double gap_at_most(const Corners& triangle, double settled, double tolerance) const;
 
  private:
+  bool none_meets(const Corners& part, Vec3 center, double radius) const;
   std::vector<std::int32_t> meeting(const Corners& triangle) const;
-  double distance_from_union(Vec3 p) const;
+  /// At most `at_most`; where it is below `enough`, some value below that.
+  double distance_from_union(Vec3 p, double at_most, double enough) const;
 
   std::span<const Vec3> centers_;
   std::span<const double> radii_;

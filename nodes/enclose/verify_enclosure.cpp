@@ -18,6 +18,9 @@
 namespace ballflow::geometry {
 namespace {
 
+/// Triangles of a block: one may take as long as ten thousand others.
+std::size_t block_of(std::size_t triangles) { return std::clamp<std::size_t>(triangles / 64, 1, 16); }
+
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 Corners corners_of(const TriangleMesh& mesh, std::size_t t) {
@@ -32,10 +35,11 @@ double gap_at_most(const TriangleMesh& mesh, const BallsForTriangles& tree,
   const Box box = bounding_box(mesh.vertices.span()), of_balls = bounding_box(balls);
   const double tolerance = std::max(0.01 * gap, 2e-4 * box.longest_edge());
   std::vector<double> most(open.size());
-  for_each_block(open.size(), 16, monitor, 0.6, 0.7, [&](std::size_t, std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i)
-      most[i] = tree.gap_at_most(corners_of(mesh, at(open[i])), gap, tolerance);
-  });
+  for_each_block(open.size(), block_of(open.size()), monitor, 0.6, 0.7,
+                 [&](std::size_t, std::size_t first, std::size_t last) {
+                   for (std::size_t i = first; i < last; ++i)
+                     most[i] = tree.gap_at_most(corners_of(mesh, at(open[i])), gap, tolerance);
+                 });
   double largest = 0;
   for (const Vec3 p : {box.lower, box.upper, of_balls.lower, of_balls.upper})
     largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
@@ -46,16 +50,23 @@ void look_at_triangles(const TriangleMesh& mesh, const Balls& balls, Monitor& mo
   const BallsForTriangles tree(balls);
   const double size = 0.005 * bounding_box(mesh.vertices.span()).longest_edge();
   std::vector<TriangleCover> covers(mesh.triangles.size());
-  std::vector<UncoveredPart> parts(mesh.triangles.size());
-  constexpr std::size_t block = 16;
-  for_each_block(covers.size(), block, monitor, 0, 0.6,
-                 [&](std::size_t, std::size_t first, std::size_t last) {
-                   for (std::size_t t = first; t < last; ++t) {
-                     covers[t] = tree.cover(corners_of(mesh, t));
-                     if (covers[t].open && balls.size() > 0)
-                       parts[t] = tree.uncovered(corners_of(mesh, t), size);
-                   }
-                 });
+  std::vector<double> gaps(covers.size());
+  std::vector<UncoveredPart> parts(covers.size());
+  const auto for_all = [&](double from, double to, const auto& look) {
+    for_each_block(covers.size(), block_of(covers.size()), monitor, from, to,
+                   [&](std::size_t, std::size_t first, std::size_t last) {
+                     for (std::size_t t = first; t < last; ++t) look(t, corners_of(mesh, t));
+                   });
+  };
+  for_all(0, 0.3, [&](std::size_t t, const Corners& corners) {
+    covers[t] = tree.cover(corners);
+    if (covers[t].open && balls.size() > 0) gaps[t] = tree.gap_of_corners(corners);
+  });
+  // Most surfaces are farthest at a corner; then no part of a triangle has to be looked at for the gap.
+  const double of_corners = *std::max_element(gaps.begin(), gaps.end());
+  for_all(0.3, 0.6, [&](std::size_t t, const Corners& corners) {
+    if (covers[t].open && balls.size() > 0) parts[t] = tree.uncovered(corners, size, of_corners);
+  });
   std::vector<std::int32_t> open;
   std::vector<Vec3> points;
   std::vector<std::uint8_t> why;

@@ -21,7 +21,7 @@ struct VerifyEnclosure {
   VerifyEnclosureOptions options;
 
   static void declare(NodeDecl<VerifyEnclosure>& d) {
-    d.id("VerifyEnclosure", 4)
+    d.id("VerifyEnclosure", 5)
         .summary("Prove that balls contain everything inside a surface, or tell what they miss.");
     d.doc(
         "The union of the balls contains every triangle, and everything that the triangles separate from "
