@@ -22,17 +22,28 @@ NearPair pair_of(const Ball& a, const Ball& b) {
   return {{a.center, b.center, a.radius, b.radius}, a.index, b.index};
 }
 
-/// No ball of one node is nearer to one of the other, whatever was rounded.
-double least_separation(const Node& a, const Node& b) {
-  const auto gap = [](double low_a, double high_a, double low_b, double high_b) {
+double gap(const Box& a, const Box& b) {
+  const auto along = [](double low_a, double high_a, double low_b, double high_b) {
     return std::max(std::max(low_a - high_b, low_b - high_a), 0.0);
   };
-  const Vec3 gaps{gap(a.box.lower.x, a.box.upper.x, b.box.lower.x, b.box.upper.x),
-                  gap(a.box.lower.y, a.box.upper.y, b.box.lower.y, b.box.upper.y),
-                  gap(a.box.lower.z, a.box.upper.z, b.box.lower.z, b.box.upper.z)};
-  const RoughSeparation rough = rough_separation(length(gaps), a.largest, b.largest);
+  return length({along(a.lower.x, a.upper.x, b.lower.x, b.upper.x),
+                 along(a.lower.y, a.upper.y, b.lower.y, b.upper.y),
+                 along(a.lower.z, a.upper.z, b.lower.z, b.upper.z)});
+}
+
+/// No ball of one node is nearer to one of the other, whatever was rounded.
+double least_separation(const Node& a, const Node& b) {
+  const RoughSeparation rough = rough_separation(gap(a.box, b.box), a.largest, b.largest);
   return rough.value - rough.error;
 }
+
+/// Balls whose centers are farther apart than this are not as near as `separation`, whatever was rounded;
+/// also where it is negative. Finite.
+double reach_for(double separation, double radii) {
+  return separation + radii + 0x1p-40 * (std::abs(separation) + radii) + 1e-150;
+}
+bool beyond(double squared, double reach) { return reach < 0 || squared > reach * reach; }
+
 double most_of(const BallPair& pair) {
   const RoughSeparation rough = rough_separation(pair);
   return rough.value + rough.error;
@@ -94,8 +105,8 @@ class Found {
   template <class Push>
   void visit(const NodePair& at, const Push& push) {
     const Node &x = a_.node(at.a), &y = b_.node(at.b);
+    if (!may_matter(at.least)) return;
     const bool listed = at.least <= bounds_.listed.load(std::memory_order_relaxed);
-    if (!listed && at.least > bounds_.nearest.load(std::memory_order_relaxed)) return;
     if (x.concentric() && y.concentric()) {
       if (!listed) {
         offer(a_.ball(x.prime), b_.ball(y.prime), false);
@@ -104,13 +115,12 @@ class Found {
       if (x.smallest == x.largest && y.smallest == y.largest && all_come_after(x, y)) return;
     }
     if (x.leaf() && y.leaf()) {
-      for (const Ball& p : a_.balls_of(x)) {
-        for (const Ball& q : b_.balls_of(y)) offer(p, q, listed);
-      }
+      look_at_leaves(x, y, listed);
       return;
     }
     const auto push_pair = [&](std::int32_t i, std::int32_t j) {
-      push(NodePair{least_separation(a_.node(i), b_.node(j)), i, j});
+      const double least = least_separation(a_.node(i), b_.node(j));
+      if (may_matter(least)) push(NodePair{least, i, j});
     };
     if (y.leaf() || (!x.leaf() && x.size() >= y.size())) {
       push_pair(at.a + 1, at.b);
@@ -119,6 +129,11 @@ class Found {
       push_pair(at.a, at.b + 1);
       push_pair(at.a, y.second);
     }
+  }
+
+  bool may_matter(double least) const {
+    return least <= bounds_.nearest.load(std::memory_order_relaxed) ||
+           least <= bounds_.listed.load(std::memory_order_relaxed);
   }
 
   void into(NearPairs& all, bool& none) const {
@@ -130,6 +145,19 @@ class Found {
   }
 
  private:
+  void look_at_leaves(const Node& x, const Node& y, bool listed) {
+    for (const Ball& p : a_.balls_of(x)) {
+      double wanted = bounds_.nearest.load(std::memory_order_relaxed);
+      if (listed) wanted = std::max(wanted, bounds_.listed.load(std::memory_order_relaxed));
+      const double away = distance_to_box(y.box, p.center);
+      if (beyond(away * away, reach_for(wanted, p.radius + y.largest))) continue;
+      for (const Ball& q : b_.balls_of(y)) {
+        if (!beyond(squared_distance(p.center, q.center), reach_for(wanted, p.radius + q.radius)))
+          offer(p, q, listed);
+      }
+    }
+  }
+
   /// Equal balls against equal balls: a table of ties, of which only the first can be of use.
   bool all_come_after(const Node& x, const Node& y) const {
     if (below_.size() < most_) return false;
@@ -200,9 +228,7 @@ NearPairs near_pairs(const BallBoxes& a, const BallBoxes& b, double threshold, s
       std::pop_heap(heap.begin(), heap.end(), comes_later);
       const NodePair at = heap.back();
       heap.pop_back();
-      if (at.least > bounds.nearest.load(std::memory_order_relaxed) &&
-          at.least > bounds.listed.load(std::memory_order_relaxed))
-        break;  // and so are all others
+      if (!mine.may_matter(at.least)) break;  // and so do all others
       look(64);
       mine.visit(at, [&](const NodePair& pair) {
         heap.push_back(pair);
@@ -240,6 +266,7 @@ std::vector<NearPair> nearest_of_every(const BallBoxes& a, const BallBoxes& b, M
       double bound = most_of(best.balls);
       const auto offer = [&](std::int32_t at) {
         const Ball& q = b.ball(at);
+        if (beyond(squared_distance(p.center, q.center), reach_for(bound, p.radius + q.radius))) return;
         const RoughSeparation rough = rough_separation(distance(p.center, q.center), p.radius, q.radius);
         if (rough.value - rough.error > bound || q.index == best.b) return;
         const NearPair pair = pair_of(p, q);
