@@ -32,6 +32,7 @@ struct ExportTest : testing::Test {
                                     : graph == "ball_distance"    ? "threshold=1"
                                     : graph == "sweep_along_path" ? "tool=shape:sphere?n=400&R=0.2"
                                     : graph == "path"             ? "robot=shape:sphere?n=400&R=0.1"
+                                    : graph == "shape_match"      ? "balls=20"
                                                                   : "input=shape:torus?n=1500"});
     const ProcessResult result = ballflow(run);
     EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -74,8 +75,9 @@ TEST_F(ExportTest, every_type_of_a_run_is_exported_to_the_last_bit_in_every_form
   ASSERT_GE(known.size(), 7u);
   std::map<std::string, int> written;
   std::size_t files = 0;
-  for (const char* graph : {"dmt", "medial_axis", "growth", "local_feature_size", "seed_polytope",
-                            "check_spheres", "discs", "ball_distance", "sweep_along_path", "path"}) {
+  for (const char* graph :
+       {"dmt", "medial_axis", "growth", "local_feature_size", "seed_polytope", "check_spheres", "discs",
+        "ball_distance", "sweep_along_path", "path", "shape_match"}) {
     for (const auto& [name, output] : outputs(graph)) {
       const auto& [type, digest] = output;
       const std::vector<std::string> all =

@@ -118,6 +118,10 @@ class Artifact:
         self.points, self.radii = a["points"], a["clearances"]
         self.edges = [(i, i + 1) for i in range(len(self.points) - 1)]
 
+    def read_MatchedBalls(self, a):
+        self.points, self.radii = a["centers"], a["radii"]
+        self.point_codes = ("partner", [p + u for p, u in zip(a["partners"], a["unique"])])
+
     def read_PoleSet(self, a):
         self.points, self.radii = a["centers"], a["radii"]
         self.point_codes = ("label", a["labels"])

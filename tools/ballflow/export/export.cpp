@@ -28,6 +28,7 @@ const std::vector<TypeFormats>& table() {
                                                  disc_outline_formats(),
                                                  ball_distance_formats(),
                                                  path_formats(),
+                                                 matched_balls_formats(),
                                                  way_formats()};
   return types;
 }

@@ -19,6 +19,7 @@
 //   BallDistance       csv ply obj vtp             the nearest pair, and those below the threshold
 //   Path               csv ply obj vtp npy         points with radii; PathBalls reads the csv
 //   Way                csv ply obj vtp npy         radius: the clearance of each point
+//   MatchedBalls       csv ply vtp npy             partner: 0 none, 1 shared, 2 its own
 //   every type         json safetensors              summary and shapes; the artifact, byte for byte
 // clang-format on
 //

@@ -49,6 +49,7 @@ TypeFormats polygon2_formats();
 TypeFormats disc_outline_formats();
 TypeFormats ball_distance_formats();
 TypeFormats path_formats();
+TypeFormats matched_balls_formats();
 TypeFormats way_formats();
 
 /// What every type can be written as.

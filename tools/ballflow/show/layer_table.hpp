@@ -32,6 +32,7 @@ TypeLayers polygon2_layers();
 TypeLayers disc_outline_layers();
 TypeLayers ball_distance_layers();
 TypeLayers path_layers();
+TypeLayers matched_balls_layers();
 TypeLayers way_layers();
 
 }  // namespace ballflow::show

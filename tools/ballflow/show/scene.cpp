@@ -28,6 +28,7 @@ const std::vector<TypeLayers>& table() {
                                                 disc_outline_layers(),
                                                 ball_distance_layers(),
                                                 path_layers(),
+                                                matched_balls_layers(),
                                                 way_layers()};
   return types;
 }

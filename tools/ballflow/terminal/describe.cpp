@@ -51,6 +51,27 @@ std::string robot_spheres(const Json& s) {
   return text.append(counted(s, "poses", "pose"));
 }
 
+std::string shape_pose(const Json& s) {
+  std::string text =
+      s.at("degrees").is_number() ? "turned by " + rounded(s, "degrees") + " degrees" : "mirrored";
+  if (s.at("scale") != 1) text += ", scaled by " + rounded(s, "scale");
+  text += ", " + percent(s.at("relative_residual").get<double>()) + " of the diagonal apart";
+  if (s.at("second_best").is_number())
+    text += "; another pose is " + rounded(s, "second_best") + " times as far";
+  return text;
+}
+
+std::string matched_balls(const Json& s) {
+  std::string text = counted(s, "balls", "ball") + ", " + number(s, "points") + " points";
+  if (s.at("without_partner") != 0) text += ", " + number(s, "without_partner") + " without partner";
+  if (s.at("shared") != 0) text += ", " + number(s, "shared") + " share theirs";
+  const double diagonal = s.at("diagonal").get<double>();
+  if (s.at("surface_residual").is_number() && diagonal > 0)
+    text += "; points " + percent(s.at("surface_residual").get<double>() / diagonal) +
+            " of the diagonal off the surface";
+  return text;
+}
+
 std::string cover(const Json& s) {
   if (s.contains("remaining") && s.at("remaining") == 0) {
     std::string text = counted(s, "chosen", "ball") + " chosen";
@@ -277,6 +298,8 @@ std::string describe(const OutputEntry& output) {
          }
          return text;
        }},
+      {"ShapePose", shape_pose},
+      {"MatchedBalls", matched_balls},
       {"MeshReport", mesh_report},
       {"Robot", robot},
       {"RobotSpheres", robot_spheres},

@@ -6,6 +6,7 @@
 #include "sealed.hpp"
 #include "types/motion_types.hpp"
 #include "types/planar_types.hpp"
+#include "types/prior_types.hpp"
 #include "types/surface_types.hpp"
 
 namespace ballflow::show {
@@ -39,6 +40,27 @@ TEST(scene, shows_balls_with_their_radii) {
   const Box box = bounding_box(layers);
   EXPECT_EQ(box.lower, (Vec3{-1, -2, -2}));
   EXPECT_EQ(box.upper, (Vec3{7, 2, 2}));
+}
+
+TEST(scene, shows_matched_balls_and_how_they_came_there) {
+  MatchedBalls matched;
+  matched.centers = {{0, 0, 0}, {5, 0, 0}, {9, 0, 0}};
+  matched.radii = {1, 2, 1};
+  matched.carried = {{0, 1, 0}, {5, 1, 0}, {9, 0, 0}};
+  matched.residuals = {1, 1, 0};
+  matched.partners = {1, 1, 0};
+  matched.unique = {1, 0, 0};
+  matched.points = {{1, 0, 0}};
+  matched.normals = {{1, 0, 0}};
+  matched.point_residuals = {0.5};
+  const auto layers = shown(matched);
+  ASSERT_EQ(names(layers), (Names{"matched balls", "from where they were carried", "surface points"}));
+  EXPECT_EQ(layers[0].find("partner")->values, (std::vector<double>{2, 1, 0}));
+  EXPECT_EQ(layers[0].find("residual")->values, (std::vector<double>{1, 1, 0}));
+  ASSERT_EQ(layers[1].elements(), 3u);
+  EXPECT_EQ(layers[1].vertices[layers[1].segments[1][0]], (Vec3{5, 1, 0}));
+  EXPECT_EQ(layers[1].vertices[layers[1].segments[1][1]], (Vec3{5, 0, 0}));
+  EXPECT_EQ(layers[2].find("residual")->values, (std::vector<double>{0.5}));
 }
 
 TEST(scene, leaves_layers_without_elements_out) {
