@@ -71,6 +71,30 @@ void refuse_unusable(const PointSet& points, const std::string& whose) {
           "sample the faces of a mesh: Sample with mode surface");
 }
 
+/// Radii of the template's balls where its points came to: each keeps its proportion to the mean distance of
+/// the points that were nearest to its center. Smooth where the field is, as distances from another sampling
+/// are not.
+std::vector<double> carried_radii(const Balls& balls, std::span<const Vec3> points,
+                                  std::span<const Vec3> moved_points, std::span<const Vec3> moved_centers) {
+  constexpr std::size_t neighbours = 8;
+  std::vector<double> radii;
+  std::vector<std::pair<double, std::size_t>> near;
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    near.clear();
+    for (std::size_t j = 0; j < points.size(); ++j)
+      near.emplace_back(squared_distance(balls.centers[i], points[j]), j);
+    const std::size_t count = std::min(neighbours, near.size());
+    std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count), near.end());
+    double before = 0, after = 0;
+    for (std::size_t q = 0; q < count; ++q) {
+      before += std::sqrt(near[q].first);
+      after += distance(moved_centers[i], moved_points[near[q].second]);
+    }
+    radii.push_back(before > 0 && after > 0 ? balls.radii[i] * (after / before) : balls.radii[i]);
+  }
+  return radii;
+}
+
 /// Distances from a surface that is known by samples: from small discs around them.
 class SampledSurface {
  public:
@@ -183,19 +207,22 @@ MatchedBalls match(const Balls& balls, const PointSet& points, const PointSet& s
   const ShapePose labelled = labelled_pose(
       moved, points.points, {}, {.similarity = pose.similarity != 0, .mirror = pose.mirrored != 0});
 
+  std::vector<Vec3> moved_centers;
+  for (std::size_t i = 0; i < k; ++i) moved_centers.push_back(to_instance(carried.points[m + i]));
+  std::vector<double> smooth_radii = carried_radii(balls, points.points, moved, moved_centers);
+
   const Box box = bounding_box(samples.points);
   result.diagonal = length(box.upper - box.lower);
   const BallTree tree(own);
-  std::vector<Vec3> centers, before;
+  std::vector<Vec3> centers;
   std::vector<double> radii, residuals;
   std::vector<std::uint8_t> partners, unique;
   std::vector<std::int32_t> partner, users(own.size(), 0);
   for (std::size_t i = 0; i < k; ++i) {
-    const Vec3 center = to_instance(carried.points[m + i]);
-    const double radius = balls.radii[i] / pose.scale;
+    const Vec3 center = moved_centers[i];
+    const double radius = smooth_radii[i];
     const BallTree::Nearest near = tree.nearest(center, radius);
     const bool has = near.distance <= options.reach * result.diagonal;
-    before.push_back(center);
     centers.push_back(has ? own.centers[near.index] : center);
     radii.push_back(has ? own.radii[near.index] : radius);
     residuals.push_back(has ? near.distance : 0);
@@ -214,7 +241,8 @@ MatchedBalls match(const Balls& balls, const PointSet& points, const PointSet& s
 
   result.centers = std::move(centers);
   result.radii = std::move(radii);
-  result.carried = std::move(before);
+  result.carried = std::move(moved_centers);
+  result.carried_radii = std::move(smooth_radii);
   result.residuals = std::move(residuals);
   result.partners = std::move(partners);
   result.unique = std::move(unique);

@@ -37,6 +37,10 @@ std::string broken_invariant(const MatchedBalls& m) {
   for (const std::size_t size :
        {m.centers.size(), m.carried.size(), m.residuals.size(), m.partners.size(), m.unique.size()})
     if (size != k) return "not as many of everything as there are balls";
+  if (!m.carried_radii.empty() && m.carried_radii.size() != k) return "not as many carried radii as balls";
+  for (std::size_t i = 0; i < m.carried_radii.size(); ++i)
+    if (!(m.carried_radii[i] > 0) || !std::isfinite(m.carried_radii[i]))
+      return "the carried ball " + std::to_string(i) + " has radius " + std::to_string(m.carried_radii[i]);
   if (m.normals.size() != m.points.size() || m.point_residuals.size() != m.points.size())
     return "not as many normals or residuals as there are points";
   if (m.sample_normals.size() != m.samples.size()) return "not as many normals as samples";

@@ -26,9 +26,14 @@ namespace ballflow::geometry {
 struct MatchedBalls {
   // k balls. Each is one of the instance's own balls (inside by construction) where it has a partner;
   // where it has none, center and radius are what the template's ball was carried to.
-  Array<Vec3> centers;           // k x 3, finite
-  Array<double> radii;           // k, above 0
-  Array<Vec3> carried;           // k x 3: where the centers were carried to, before a partner was looked for
+  Array<Vec3> centers;  // k x 3, finite
+  Array<double> radii;  // k, above 0
+  // k x 3 and k (or none): the template's balls as the smooth field carried them, before a partner was looked
+  // for. Radii keep their proportion to the distances of the carried surface points that are nearest. Without
+  // the noise of one shape's poles beside another's, and so what statistics should take; but in thin parts
+  // they may stand out of the instance.
+  Array<Vec3> carried;
+  Array<double> carried_radii;
   Array<double> residuals;       // k: from the carried ball to its partner, in (x, y, z, r); 0 without one
   Array<std::uint8_t> partners;  // k: 1, or 0: no ball of the instance is near enough
   Array<std::uint8_t>

@@ -18,6 +18,10 @@ void TypeOf<geometry::MatchedBalls>::declare(TypeDecl<geometry::MatchedBalls>& d
   d.array("carried", &T::carried)
       .length("k")
       .doc("where the template's centers were carried to, model units");
+  d.array("carried_radii", &T::carried_radii)
+      .length("k")
+      .optional()
+      .doc("of the template's balls, in proportion to the carried points around them, model units, above 0");
   d.array("residuals", &T::residuals)
       .length("k")
       .doc("from the carried ball to the instance's own in (x, y, z, r), model units");

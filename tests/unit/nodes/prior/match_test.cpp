@@ -73,6 +73,7 @@ TEST(match, a_turned_copy_gives_its_own_balls_back) {
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     EXPECT_LT(distance(found.centers[i], transformed(away, wanted.centers[i])), 1e-9);
     EXPECT_NEAR(found.radii[i], 2.5 * wanted.radii[i], 1e-9);
+    EXPECT_NEAR(found.carried_radii[i], 2.5 * wanted.radii[i], 1e-6);
     EXPECT_EQ(found.partners[i], 1);
     EXPECT_EQ(found.unique[i], 1);
   }
