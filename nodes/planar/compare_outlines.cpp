@@ -69,7 +69,7 @@ Set set_of(const Polygon2& polygon) {
   return set;
 }
 
-double area_of(const Set& set) {
+Kernel::FT area_of(const Set& set) {
   std::vector<Part> parts;
   set.polygons_with_holes(std::back_inserter(parts));
   Kernel::FT sum = 0;
@@ -77,8 +77,12 @@ double area_of(const Set& set) {
     sum += part.outer_boundary().area();
     for (auto hole = part.holes_begin(); hole != part.holes_end(); ++hole) sum += hole->area();
   }
-  CGAL::exact(sum);  // so that it is rounded in the same way whatever intervals there were
-  return CGAL::to_double(sum);
+  return sum;
+}
+
+double rounded(const Kernel::FT& area) {
+  CGAL::exact(area);  // so that it is rounded in the same way whatever intervals there were
+  return CGAL::to_double(area);
 }
 
 struct Edges {
@@ -171,17 +175,17 @@ OutlineComparison compare_outlines(const Polygon2& a, const Polygon2& b,
     throw InputError("the spacing asks for more than 2^26 samples", "take a larger one");
   monitor.step(0);
   if (is_simple(a, "a", monitor) && is_simple(b, "b", monitor)) {
-    const Set set_a = set_of(a), set_b = set_of(b);
-    monitor.step(0.2);
-    Set only_a = set_a, only_b = set_b;
-    only_a.difference(set_b);
-    monitor.step(0.5);
-    only_b.difference(set_a);
+    Set both = set_of(a);
+    const Set set_b = set_of(b);
+    const Kernel::FT area_a = area_of(both), area_b = area_of(set_b);
+    monitor.step(0.3);
+    both.intersection(set_b);
     monitor.step(0.8);
-    result.area_a = area_of(set_a);
-    result.area_b = area_of(set_b);
-    result.only_a = area_of(only_a);
-    result.only_b = area_of(only_b);
+    const Kernel::FT shared = area_of(both);
+    result.area_a = rounded(area_a);
+    result.area_b = rounded(area_b);
+    result.only_a = rounded(area_a - shared);
+    result.only_b = rounded(area_b - shared);
   } else {
     result.area_a = result.area_b = result.only_a = result.only_b = -1;
   }

@@ -7,6 +7,7 @@ const bf_node* compare_outlines_entry();
 const bf_node* disc_poles_entry();
 const bf_node* disc_union_outline_entry();
 const bf_node* polygon_meshes_entry();
+const bf_node* simplify_polygon_entry();
 }  // namespace ballflow::nodes
 
 BALLFLOW_PLUGIN("planar", "0.1.0",
@@ -16,5 +17,6 @@ BALLFLOW_PLUGIN("planar", "0.1.0",
                     ballflow::nodes::disc_poles_entry(),
                     ballflow::nodes::disc_union_outline_entry(),
                     ballflow::nodes::polygon_meshes_entry(),
+                    ballflow::nodes::simplify_polygon_entry(),
                 }),
                 ballflow::type_entries<>())

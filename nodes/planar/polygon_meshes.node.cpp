@@ -15,7 +15,7 @@ struct PolygonMeshes {
   Out<geometry::TriangleMesh> flat, prism;
 
   static void declare(NodeDecl<PolygonMeshes>& d) {
-    d.id("PolygonMeshes", 1).summary("Triangles that tile a polygon, and a prism over it.");
+    d.id("PolygonMeshes", 2).summary("Triangles that tile a polygon, and a prism over it.");
     d.doc(
         "So that what nodes prove of meshes in space holds in the plane: balls with z = 0 contain `flat` "
         "where the discs contain the polygon, and reach out of `prism` where the discs reach out of the "

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <bit>
+#include <bitset>
 #include <cstdint>
 #include <map>
 #include <numeric>
 #include <random>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -64,21 +66,21 @@ inline Sets row_sets(const geometry::CoverState& state) {
 
 /// Size of a smallest cover of the residual matrix, by trying all subsets of its rows (at most 20).
 inline std::int64_t optimum(const geometry::CoverState& state) {
-  std::vector<std::uint64_t> masks;
+  using Mask = std::bitset<256>;
+  if (state.rows() > 20 || state.cols() > Mask().size())
+    throw std::length_error("too many to try all subsets");
+  std::vector<Mask> masks(state.rows());
   for (std::size_t i = 0; i < state.rows(); ++i) {
-    std::uint64_t mask = 0;
-    for (const std::int32_t c : state.row(i)) mask |= std::uint64_t{1} << c;
-    masks.push_back(mask);
+    for (const std::int32_t c : state.row(i)) masks[i].set(static_cast<std::size_t>(c));
   }
-  const std::uint64_t full = state.cols() == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << state.cols()) - 1;
-  std::vector<std::uint64_t> covered(std::size_t{1} << masks.size());
+  std::vector<Mask> covered(std::size_t{1} << masks.size());
   std::int64_t best = std::int64_t{1} << 40;
   for (std::size_t subset = 0; subset < covered.size(); ++subset) {
     if (subset != 0) {
       covered[subset] =
           covered[subset & (subset - 1)] | masks[static_cast<std::size_t>(std::countr_zero(subset))];
     }
-    if (covered[subset] == full) best = std::min<std::int64_t>(best, std::popcount(subset));
+    if (covered[subset].count() == state.cols()) best = std::min<std::int64_t>(best, std::popcount(subset));
   }
   return best;
 }
