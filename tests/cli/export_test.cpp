@@ -32,8 +32,9 @@ struct ExportTest : testing::Test {
                                     : graph == "ball_distance"    ? "threshold=1"
                                     : graph == "sweep_along_path" ? "tool=shape:sphere?n=400&R=0.2"
                                     : graph == "path"             ? "robot=shape:sphere?n=400&R=0.1"
-                                    : graph == "shape_match"      ? "balls=20"
-                                                                  : "input=shape:torus?n=1500"});
+                                    : graph == "shape_match"
+                                        ? "instances=shape:bracket?n=2000&r=0.2,shape:bracket?n=2000&r=0.3"
+                                        : "input=shape:torus?n=1500"});
     const ProcessResult result = ballflow(run);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     std::map<std::string, std::pair<std::string, std::string>> found;

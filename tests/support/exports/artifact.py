@@ -229,7 +229,7 @@ class Artifact:
     read_CoverCheck = read_Comparison = read_Bisection = read_CoverState
     read_TopologyTable = read_TopologyCheck = read_Refinement = read_CoverState
     read_MassProperties = read_SurfaceBallsReport = read_CoverState
-    read_NoiseReport = read_MinkowskiReport = read_CoverState
+    read_NoiseReport = read_MinkowskiReport = read_ShapePose = read_CoverState
 
     def balls(self):
         return [(*p, r) for p, r in zip(self.points, self.radii)]
