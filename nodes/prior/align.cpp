@@ -23,7 +23,8 @@ constexpr double same_rotation = 5, same_rough_rotation = 15;
 constexpr double same_distance = 0.1, same_rough_distance = 0.2;  // and by the target's radius
 constexpr double exact_fit = 1e-4;                         // by the diagonal: residuals below this are one
 constexpr std::size_t most_optima = 4, most_mirrored = 2;  // distinct ones that go on with all points
-constexpr double flat = 1e-6;                              // thickness of a set of points by its size
+constexpr double hopeless = 2.5;  // times the best rough residual: no finer search would help
+constexpr double flat = 1e-6;     // thickness of a set of points by its size
 
 using Rotation = std::array<double, 9>;
 
@@ -213,8 +214,11 @@ ShapePose align(const PointSet& moved_points, const PointSet& target_points, con
   found = proper;
   found.insert(found.end(), mirrored.begin(), mirrored.end());
   const ClosestPointsOptions thorough{options.similarity, whole, options.keep, 60, 1e-5};
+  double best_rough = residual_of(found.front());
+  for (const ShapePose& pose : found) best_rough = std::min(best_rough, residual_of(pose));
   for_each_block(found.size(), 1, monitor, 0.5, 1, [&](std::size_t, std::size_t first, std::size_t) {
-    found[first] = iterate_closest_points(moved, target, found[first], thorough, monitor);
+    if (residual_of(found[first]) <= hopeless * best_rough)
+      found[first] = iterate_closest_points(moved, target, found[first], thorough, monitor);
     // What decides is measured on all points: a small feature must not be trimmed away.
     measure(found[first], moved, target, whole ? 1 : options.keep, whole);
   });
