@@ -32,7 +32,9 @@ struct Align {
         "points correspond already (Match refines its own pose), or shapes are turned by a symmetry of "
         "theirs: "
         "no alignment can tell.");
-    d.cites("kornberger2010", "6.3.1");
+    d.cites("besl1992", "iterated closest points")
+        .cites("chetverikov2002", "trimmed")
+        .cites("horn1987", "the transform of labelled pairs");
     d.memory(16 << 20, 8);
     d.input("points", &Align::points).doc("n samples of the surface that is to be moved, all over it");
     d.input("target", &Align::target).doc("samples of the surface that it is laid on");

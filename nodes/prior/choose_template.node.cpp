@@ -28,7 +28,8 @@ struct ChooseTemplate {
         "in the "
         "cache when shapes are added. Refuses lists that are not equally long, and shapes without extent.");
     d.avoid_when("one shape is known to be the best: the parameter instance.");
-    d.cites("kornberger2010", "6.3.1");
+    d.cites("osada2002", "D2: distances of pairs of points")
+        .cites("gonzalez1985", "points that are evenly chosen");
     d.memory(8 << 20, 4);
     d.input("samples", &ChooseTemplate::samples).doc("of the surface of each shape, evenly spread");
     d.input("inner", &ChooseTemplate::inner).doc("inner balls of each shape, in the same order");

@@ -25,7 +25,7 @@ struct TemplateBalls {
         "left "
         "out: pruning puts balls of radius 0 where no other covers a sample. Refuses empty sets.");
     d.avoid_when("balls are to cover the surface: these lie inside.");
-    d.cites("kornberger2010", "6.3.1");
+    d.cites("kornberger2010", "6.3.1").cites("fine2001", "Cholesky with pivots");
     d.memory(1 << 20, 4);
     d.input("balls", &TemplateBalls::balls).doc("k balls of the template, grown or not");
     d.input("inner", &TemplateBalls::inner).doc("its inner balls before they grew");

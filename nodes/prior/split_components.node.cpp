@@ -23,7 +23,7 @@ struct SplitComponents {
         "by common vertices. Accepts any triangles. Refuses a mesh without any, and numbers beyond the last "
         "component.");
     d.avoid_when("components bound one solid together: a cavity is a component of its own.");
-    d.cites("kornberger2010", "6.3.1");
+    d.cites("cormen2009", "connected components by disjoint sets");
     d.memory(1 << 20, 4);
     d.input("mesh", &SplitComponents::mesh).doc("any triangles, equal vertices welded");
     d.output("mesh", &SplitComponents::component)
