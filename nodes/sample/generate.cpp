@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/circle.hpp"
+#include "exact/exponential.hpp"
 #include "io/text_cursor.hpp"
 #include "sample/block_mesh.hpp"
 #include "sample/frame_mesh.hpp"
@@ -40,7 +41,11 @@ constexpr std::array table = {
         1, 10000, 1, 0.2, 0.4},
     ShapeInfo{Shape::frame, "frame",
               "a cube of edge 2 R less a ball of radius r above R around its middle: its edges", 5, 10000, 1,
-              1.2, 1.4}};
+              1.2, 1.4},
+    ShapeInfo{Shape::bump_box, "bumpBox",
+              "a box of 2 R by 0.8 R by 0.6 R with a bump on its top, r from one of its ends: a family of "
+              "shapes that differ in one number",
+              0, 10000, 1, 0.56, 1}};
 
 std::string number_text(double value) {
   std::string text = std::to_string(value);
@@ -178,6 +183,19 @@ TriangleMesh box(double r, std::int64_t n) {
   return of_blocks({{{{-1, 1}, {-1, 1}, {-r, r}}}, [](int, int, int) { return true; }}, n);
 }
 
+TriangleMesh bump_box(double r, std::int64_t n) {
+  constexpr double height = 0.32, width = 0.2, top = 0.3;
+  TriangleMesh mesh =
+      of_blocks({{{{-1, 1}, {-0.4, 0.4}, {-top, top}}}, [](int, int, int) { return true; }}, n);
+  std::vector<Vec3> vertices(mesh.vertices.begin(), mesh.vertices.end());
+  for (Vec3& p : vertices) {
+    const double x = p.x - (r - 1);
+    if (p.z == top) p.z += height * exponential(-(x * x + p.y * p.y) / (2 * width * width));
+  }
+  mesh.vertices = std::move(vertices);
+  return mesh;
+}
+
 TriangleMesh bracket(double r, std::int64_t n) {
   constexpr double width = 0.8;
   const double middle = 0.5 * (1 + r), hole = 0.25 * (1 - r);  // of the lying plate beside the standing one
@@ -217,6 +235,8 @@ TriangleMesh unit_mesh(Shape shape, double r, std::int64_t n, Monitor& monitor) 
       return bracket(r, n);
     case Shape::frame:
       return frame(r, n);
+    case Shape::bump_box:
+      return bump_box(r, n);
   }
   throw std::logic_error("a shape without a formula");
 }

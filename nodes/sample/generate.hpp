@@ -1,5 +1,5 @@
-// Models from formulae: smooth and sharp, of known genus, made of + - * / and square roots alone, so that
-// every machine makes the same bytes. torusBalls, 3cross, doubleTorus, knot and sTube stand for the models of
+// Models from formulae: smooth and sharp, of known genus, made of + - * / and square roots alone (of these is
+// the exponential, too), so that every machine makes the same bytes. torusBalls, 3cross, doubleTorus, knot and sTube stand for the models of
 // the same names in Kornberger 2010, which were never published.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace ballflow::geometry {
 
-enum class Shape { sphere, torus, double_torus, torus_balls, cross, knot, s_tube, box, bracket, frame };
+enum class Shape { sphere, torus, double_torus, torus_balls, cross, knot, s_tube, box, bracket, frame, bump_box };
 
 struct ShapeOptions {
   Shape shape = Shape::torus;
@@ -46,8 +46,8 @@ ShapeOptions parse_shape(std::string_view text);
 /// The surface of the shape: closed, manifold, outward oriented, in one component, of the shape's genus.
 ///
 /// - At the shape's own sizes no two vertices are nearer than a third of the mean edge length.
-/// - Vertices of the smooth shapes lie on the surface up to rounding, evenly spaced; those of box and bracket
-///   lie on a grid that has every sharp edge as a grid line.
+/// - Vertices of the smooth shapes lie on the surface up to rounding, evenly spaced; those of box, bracket
+///   and bumpBox lie on a grid that has every sharp edge as a grid line.
 ///
 /// Throws InputError for sizes out of range and when n is too small for the features of the shape.
 TriangleMesh generate(const ShapeOptions& options, Monitor& monitor = no_monitor());

@@ -103,6 +103,18 @@ TEST(generate, volumes_approach_the_formulas) {
   EXPECT_NEAR(volume(generate(parse_shape("frame?n=20000"))), 8 - (4 * pi / 3 * r * r * r - 6 * cap), 2e-3);
 }
 
+TEST(generate, the_bump_adds_a_gaussian_wherever_it_is) {
+  const auto integral = [](double from, double to) {  // of exp(-x^2 / (2 * 0.2^2))
+    const double width = 0.2 * std::sqrt(2.0);
+    return 0.1 * std::sqrt(2 * std::numbers::pi) * (std::erf(to / width) - std::erf(from / width));
+  };
+  for (const double place : {0.56, 0.7, 0.96}) {
+    const TriangleMesh mesh = generate(parse_shape("bumpBox?n=20000&r=" + std::to_string(place)));
+    const double bump = 0.32 * integral(-place, 2 - place) * integral(-0.4, 0.4);
+    EXPECT_NEAR(volume(mesh), 2 * 0.8 * 0.6 + bump, 1e-4) << place;
+  }
+}
+
 TEST(generate, the_frame_is_one_of_every_size_and_its_vertices_lie_on_cube_and_ball) {
   for (int n : {50, 100, 333, 1000, 5000}) {
     for (const char* r : {"1.02", "1.1", "1.2", "1.39"}) {
