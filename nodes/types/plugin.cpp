@@ -8,6 +8,7 @@
 #include "types/power_diagram_type.hpp"
 #include "types/prior_types.hpp"
 #include "types/robot_type.hpp"
+#include "types/shape_types.hpp"
 #include "types/surface_types.hpp"
 
 using namespace ballflow::geometry;
@@ -18,5 +19,5 @@ BALLFLOW_PLUGIN(
         BallCounts, BallDistance, Balls, Bisection, Comparison, CoverCheck, CoverState, DiscOutline,
         Enclosure, EnclosureFit, Growth, LocalFeatureSize, MassProperties, MatchedBalls, MedialAxis,
         MeshReport, MinkowskiReport, NoiseReport, OutlineComparison, Path, PointSet, PoleSet, Polygon2,
-        PowerDiagram, Refinement, Robot, RobotSpheres, SampleAssignment, ShapePose, SimplicialComplex,
+        PowerDiagram, Refinement, Robot, RobotSpheres, SampleAssignment, ShapeFit, ShapePose, ShapePrior, SimplicialComplex,
         SurfaceBallsReport, SurfaceReport, TopologyCheck, TopologyTable, TriangleMesh, Way>()))

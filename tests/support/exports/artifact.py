@@ -133,6 +133,15 @@ class Artifact:
         self.points, self.radii = a["centers"], a["grown_radii"]
         self.point_codes = ("stop", a["stops"])
 
+    def read_ShapePrior(self, a):
+        self.points, self.radii = a["centers"], a["radii"]
+        modes = len(a.get("variances", []))
+        scores = a.get("scores", [])
+        self.score_rows = [(i, d, *scores[i * modes:(i + 1) * modes]) for i, d in enumerate(a["distances"])]
+
+    def read_ShapeFit(self, a):
+        self.points, self.radii = a["centers"], a["radii"]
+
     def read_SimplicialComplex(self, a):
         number = {ball: i for i, ball in enumerate(a["vertices"])}
         self.points = [a["centers"][ball] for ball in a["vertices"]]

@@ -29,6 +29,10 @@ def check_csv(data, artifact):
     if artifact.type == "BallDistance":
         same(lines[0], "ball_a,ball_b,separation,ax,ay,az,bx,by,bz", "names")
         return same([tuple(map(float, line.split(","))) for line in lines[1:]], artifact.pair_rows, "pairs")
+    if artifact.type == "ShapePrior":
+        modes = len(artifact.score_rows[0]) - 2
+        same(lines[0].split(","), ["instance", "distance"] + [f"mode_{i}" for i in range(modes)], "names")
+        return same([tuple(map(float, line.split(","))) for line in lines[1:]], artifact.score_rows, "rows")
     if artifact.type == "DiscOutline":
         same(lines[0], "ring,x,y,r,begin_x,begin_y,angle", "names")
         return same([tuple(map(float, line.split(","))) for line in lines[1:]], artifact.arcs, "arcs")

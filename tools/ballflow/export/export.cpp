@@ -29,7 +29,9 @@ const std::vector<TypeFormats>& table() {
                                                  ball_distance_formats(),
                                                  path_formats(),
                                                  matched_balls_formats(),
-                                                 way_formats()};
+                                                 way_formats(),
+                                                 shape_prior_formats(),
+                                                 shape_fit_formats()};
   return types;
 }
 

@@ -20,6 +20,8 @@
 //   Path               csv ply obj vtp npy         points with radii; PathBalls reads the csv
 //   Way                csv ply obj vtp npy         radius: the clearance of each point
 //   MatchedBalls       csv ply vtp npy             partner: 0 none, 1 shared, 2 its own
+//   ShapePrior         safetensors csv ply vtp npy   csv: scores of the instances; else the balls of the mean
+//   ShapeFit           json csv ply vtp npy       the fitted balls
 //   every type         json safetensors              summary and shapes; the artifact, byte for byte
 // clang-format on
 //

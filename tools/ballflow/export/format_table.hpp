@@ -51,6 +51,8 @@ TypeFormats ball_distance_formats();
 TypeFormats path_formats();
 TypeFormats matched_balls_formats();
 TypeFormats way_formats();
+TypeFormats shape_prior_formats();
+TypeFormats shape_fit_formats();
 
 /// What every type can be written as.
 std::vector<Format> generic_formats();

@@ -34,5 +34,7 @@ TypeLayers ball_distance_layers();
 TypeLayers path_layers();
 TypeLayers matched_balls_layers();
 TypeLayers way_layers();
+TypeLayers shape_prior_layers();
+TypeLayers shape_fit_layers();
 
 }  // namespace ballflow::show

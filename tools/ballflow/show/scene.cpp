@@ -29,7 +29,9 @@ const std::vector<TypeLayers>& table() {
                                                 ball_distance_layers(),
                                                 path_layers(),
                                                 matched_balls_layers(),
-                                                way_layers()};
+                                                way_layers(),
+                                                shape_prior_layers(),
+                                                shape_fit_layers()};
   return types;
 }
 

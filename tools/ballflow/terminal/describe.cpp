@@ -190,6 +190,28 @@ std::string surface(const Json& s) {
   return text;
 }
 
+std::string shape_prior(const Json& s) {
+  std::string text = counted(s, "instances", "instance") + " of " + counted(s, "balls", "ball") + ", " +
+                     counted(s, "modes", "mode");
+  const Json& parts = s.at("compactness");
+  for (std::size_t i = 0; i < parts.size() && i < 3; ++i)
+    text += (i == 0 ? ", of the variance in the first ones: " : ", ") + percent(parts[i].get<double>());
+  const Json& unknown = s.at("generalization");
+  if (unknown.size() < 2) return text;
+  char words[96];
+  std::snprintf(words, sizeof words, "; unknown instances %.4g away, from the mean %.4g",
+                unknown.back().get<double>(), unknown.front().get<double>());
+  return text + words;
+}
+
+std::string shape_fit(const Json& s) {
+  std::string text = number(s, "observed") + " points or balls, " + rounded(s, "residual") + " away";
+  if (s.at("expected").is_number()) text += " (unknown instances: " + rounded(s, "expected") + ")";
+  text += ", " + percent(s.at("outliers").get<double>()) + " outliers, scores of size " +
+          rounded(s, "mahalanobis");
+  return text + (s.at("converged").get<bool>() ? "" : ", NOT at rest");
+}
+
 std::string axis(const Json& s) {
   return counted(s, "polygons", "polygon") + " in " + counted(s, "sheets", "sheet") + ", " +
          counted(s, "edges", "free edge") + ", Euler characteristic " + number(s, "euler_characteristic");
@@ -300,6 +322,8 @@ std::string describe(const OutputEntry& output) {
        }},
       {"ShapePose", shape_pose},
       {"MatchedBalls", matched_balls},
+      {"ShapePrior", shape_prior},
+      {"ShapeFit", shape_fit},
       {"MeshReport", mesh_report},
       {"Robot", robot},
       {"RobotSpheres", robot_spheres},

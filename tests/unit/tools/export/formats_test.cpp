@@ -73,6 +73,8 @@ TEST_F(ReadBack, every_type_holds_the_same_numbers_in_every_format) {
   write("poles", sample_poles());
   write("feature_size", sample_feature_size());
   write("growth", sample_growth());
+  write("prior", sample_prior());
+  write("fit", sample_fit());
   write("surface_report", sample_surface_report());
   write("assignment", sample_assignment(true));
   write("assignment_without_surface", sample_assignment(false));

@@ -1,9 +1,11 @@
 // One small artifact of every type that has formats of its own.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <vector>
 
+#include "types/shape_types.hpp"
 #include "types/surface_types.hpp"
 
 namespace ballflow::test {
@@ -36,6 +38,39 @@ inline geometry::PoleSet sample_poles() {
 }
 
 inline geometry::LocalFeatureSize sample_feature_size() { return {{odd, far}, {0.1, 7}, {1, 2}}; }
+
+inline geometry::ShapePrior sample_prior() {
+  geometry::ShapePrior prior;
+  prior.centers = {odd, far};
+  prior.radii = {0.1, 7};
+  prior.points = {{1, 0, 0}};
+  prior.normals = {{0, 0, 1}};
+  prior.point_share = 0.5;
+  prior.radius_unit = 3.55;
+  prior.modes = {{1, 0, 0, 0.1}, {0, 0, 0, 0}, {0, 2, 0, 0}, {0, 0, -0.5, 0}};
+  prior.point_modes = {{1, 0, 0}, {0, 1, 0}};
+  prior.variances = {2, 0.1};
+  prior.total_variance = 2.5;
+  prior.scores = {1, -0.1, -1, 1.0 / 3, 0, 0};
+  prior.poses = std::vector<std::array<double, 12>>(3, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0});
+  prior.distances = {1, 2, 0.1};
+  prior.generalization = {1, 0.5};
+  prior.generalization_deviation = {0.1, 0};
+  prior.specificity = {1, 2};
+  prior.specificity_deviation = {0.1, 0.1};
+  return prior;
+}
+
+inline geometry::ShapeFit sample_fit() {
+  geometry::ShapeFit fit;
+  fit.scores = {1, -2};
+  fit.covariance = {0.5, 0.1, 0.1, 0.25};
+  fit.centers = {odd, far};
+  fit.radii = {0.1, 7};
+  fit.deviations = {0, 0.5};
+  fit.observed = 100;
+  return fit;
+}
 
 inline geometry::SampleAssignment sample_assignment(bool surface) {
   geometry::SampleAssignment assignment{{odd, far, {1, 2, 3}}, {0, 7, 70000}, {}};

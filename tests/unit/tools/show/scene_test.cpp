@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "ballflow/error.hpp"
 #include "sealed.hpp"
 #include "types/motion_types.hpp"
 #include "types/planar_types.hpp"
 #include "types/prior_types.hpp"
+#include "types/shape_types.hpp"
 #include "types/surface_types.hpp"
 
 namespace ballflow::show {
@@ -180,6 +183,41 @@ TEST(scene, colours_grown_balls_by_what_stopped_them) {
   EXPECT_EQ(layers[0].radii[0], 1.5);
   EXPECT_EQ(layers[0].find(layers[0].colour_by)->values, (std::vector<double>{0, 2}));
   EXPECT_EQ(layers[0].find("growth")->values, (std::vector<double>{0.5, 0}));
+}
+
+TEST(scene, moves_the_mean_of_a_prior_by_a_slider_for_each_mode) {
+  ShapePrior prior;
+  prior.centers = {{0, 0, 0}, {9, 0, 0}};
+  prior.radii = {1, 2};
+  prior.modes = {{3, 4, 0, 0.5}, {0, 0, 0, 0}, {0, 0, 1, 0}, {0, 2, 0, 0}};
+  prior.variances = {2, 1};
+  prior.specificity = prior.specificity_deviation = {0, 0};
+  const auto layers = shown(prior);
+  ASSERT_EQ(names(layers), (Names{"mean", "mode 0", "mode 1"}));
+  EXPECT_EQ(layers[0].find("variation")->values, (std::vector<double>{std::sqrt(26), 2}));
+  ASSERT_NE(layers[0].chain, nullptr);
+  const Chain& chain = *layers[0].chain;
+  EXPECT_EQ(broken_invariant(chain), "");
+  ASSERT_EQ(chain.joints.size(), 2u);
+  EXPECT_EQ(chain.joints[1].name, "mode 1");
+  // Ball 0 hangs on two frames: the second one of them moves with the first one, too.
+  EXPECT_EQ(layers[0].frames, (std::vector<std::uint32_t>{1, 3}));
+  EXPECT_EQ(chain.frames[1].parent, 0);
+  EXPECT_EQ(chain.frames[0].factor, 5);
+  EXPECT_NEAR(length(chain.frames[0].axis - Vec3{0.6, 0.8, 0}), 0, 1e-15);
+  EXPECT_EQ(chain.frames[2].joint, -1) << "ball 1 does not move in mode 0";
+  EXPECT_EQ(layers[1].vertices[1], (Vec3{6, 8, 0}));
+  EXPECT_FALSE(layers[1].visible);
+}
+
+TEST(scene, colours_fitted_balls_by_their_uncertainty) {
+  ShapeFit fit;
+  fit.centers = {{0, 0, 0}, {9, 0, 0}};
+  fit.radii = {1, 2};
+  fit.deviations = {0.25, 3};
+  const auto layers = shown(fit);
+  ASSERT_EQ(names(layers), (Names{"fitted balls"}));
+  EXPECT_EQ(layers[0].find(layers[0].colour_by)->values, (std::vector<double>{0.25, 3}));
 }
 
 TEST(scene, colours_samples_by_the_local_feature_size) {
