@@ -10,6 +10,7 @@
 #include "report/compare.hpp"
 #include "report/html.hpp"
 #include "report/member.hpp"
+#include "report/model_plots.hpp"
 #include "report/output_cards.hpp"
 #include "report/plot.hpp"
 #include "report/result_plots.hpp"
@@ -287,7 +288,7 @@ std::string report_page(const ReportInput& input) {
     page += section(
         "Results", table_of(table) + "<details><summary>all fields</summary>" + table_of(all) + "</details>");
   }
-  page += section("Plots", result_plots(report, all));
+  page += section("Plots", result_plots(report, all) + model_plots(report));
   page += section("Pictures", pictures(input));
   page += section("Time", times(report));
   page += section("What ran", parameters(report) + "<details><summary>" +

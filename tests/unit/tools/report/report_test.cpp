@@ -353,6 +353,28 @@ TEST(report_page, plots_a_sweep_along_its_numbers_with_a_line_for_every_strategy
   EXPECT_EQ(count(page, "class=\"guide\""), 2u) << "the front and its key";
 }
 
+TEST(report_page, plots_how_good_a_model_of_shapes_is) {
+  ReportInput input = sweep();
+  nlohmann::json& report = input.run.report;
+  report.erase("variants");
+  report["outputs"] = {{"prior",
+                        {{"type", "ShapePrior"},
+                         {"digest", "00"},
+                         {"bytes", 1},
+                         {"summary",
+                          {{"compactness", {0.75, 1}},
+                           {"generalization", {4, 2.5}},
+                           {"generalization_deviation", {1, 0.5}},
+                           {"specificity", {3, 3.5}},
+                           {"specificity_deviation", {0.25, 0.25}}}}}}};
+  const std::string page = report_page(input);
+  EXPECT_TRUE(well_formed(page));
+  EXPECT_NE(page.find("modes 1\npart 0.75"), std::string::npos);
+  EXPECT_NE(page.find("modes 1\nmodel units 2.5\nstandard deviation 0.5"), std::string::npos);
+  EXPECT_NE(page.find("modes 2\nmodel units 3.5\nstandard deviation 0.25"), std::string::npos);
+  EXPECT_EQ(count(page, "class=\"guide\""), 8u) << "two lines with a key each, twice";
+}
+
 TEST(report_page, names_what_nodes_cite) {
   Registry registry;
   NodeDeclaration node;
