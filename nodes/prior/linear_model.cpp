@@ -11,10 +11,17 @@ constexpr double rounding = 1e-12;   // of the largest variance
 constexpr double as_large = 1e-6;
 
 /// Eigen's own products sum in an order that follows the cache of the machine.
-double inner(const Eigen::VectorXd& metric, const double* x, const double* y) {
+double inner(const Eigen::Ref<const Eigen::VectorXd>& x, const Eigen::Ref<const Eigen::VectorXd>& y) {
   double sum = 0;
-  for (Eigen::Index i = 0; i < metric.size(); ++i) sum += metric[i] * x[i] * y[i];
+  for (Eigen::Index i = 0; i < x.size(); ++i) sum += x[i] * y[i];
   return sum;
+}
+
+Eigen::MatrixXd around_mean(const Eigen::MatrixXd& columns, Eigen::VectorXd& mean) {
+  mean = Eigen::VectorXd::Zero(columns.rows());
+  for (Eigen::Index i = 0; i < columns.cols(); ++i) mean += columns.col(i);
+  mean /= static_cast<double>(columns.cols());
+  return columns.colwise() - mean;
 }
 
 double sign_of(const Eigen::VectorXd& scores, const Eigen::VectorXd& sizes) {
@@ -29,19 +36,18 @@ double sign_of(const Eigen::VectorXd& scores, const Eigen::VectorXd& sizes) {
 
 }  // namespace
 
-LinearModel linear_model(const Eigen::MatrixXd& vectors, const Eigen::VectorXd& metric,
+LinearModel linear_model(const Eigen::MatrixXd& vectors, const Eigen::MatrixXd& features,
                          const Eigen::VectorXd& sizes, Eigen::Index most) {
-  const Eigen::Index n = vectors.cols(), length = vectors.rows();
+  const Eigen::Index n = vectors.cols();
   LinearModel model;
-  model.mean = Eigen::VectorXd::Zero(length);
-  for (Eigen::Index i = 0; i < n; ++i) model.mean += vectors.col(i);
-  model.mean /= static_cast<double>(n);
-  const Eigen::MatrixXd centered = vectors.colwise() - model.mean;
+  Eigen::VectorXd feature_mean;
+  const Eigen::MatrixXd centered = around_mean(vectors, model.mean);
+  const Eigen::MatrixXd centered_features = around_mean(features, feature_mean);
 
   Eigen::MatrixXd gram(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j <= i; ++j)
-      gram(i, j) = gram(j, i) = inner(metric, centered.col(i).data(), centered.col(j).data());
+      gram(i, j) = gram(j, i) = inner(centered_features.col(i), centered_features.col(j));
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);  // ascending
   const Eigen::VectorXd& values = solver.eigenvalues();
@@ -52,7 +58,8 @@ LinearModel linear_model(const Eigen::MatrixXd& vectors, const Eigen::VectorXd& 
 
   model.variances.resize(count);
   model.scores.resize(n, count);
-  model.modes = Eigen::MatrixXd::Zero(length, count);
+  model.modes = Eigen::MatrixXd::Zero(vectors.rows(), count);
+  model.feature_modes = Eigen::MatrixXd::Zero(features.rows(), count);
   const double freedom = std::sqrt(static_cast<double>(n - 1));
   for (Eigen::Index mode = 0; mode < count; ++mode) {
     const double value = values[n - 1 - mode];
@@ -61,18 +68,19 @@ LinearModel linear_model(const Eigen::MatrixXd& vectors, const Eigen::VectorXd& 
     model.variances[mode] = value / static_cast<double>(n - 1);
     model.scores.col(mode) = scores;
     // scores / (n - 1) leads from the columns to what a standard deviation adds.
-    for (Eigen::Index i = 0; i < n; ++i)
-      model.modes.col(mode) += (scores[i] / static_cast<double>(n - 1)) * centered.col(i);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double part = scores[i] / static_cast<double>(n - 1);
+      model.modes.col(mode) += part * centered.col(i);
+      model.feature_modes.col(mode) += part * centered_features.col(i);
+    }
   }
   return model;
 }
 
-Eigen::VectorXd scores_of(const LinearModel& model, const Eigen::VectorXd& metric,
-                          const Eigen::VectorXd& vector) {
-  const Eigen::VectorXd difference = vector - model.mean;
+Eigen::VectorXd scores_of(const LinearModel& model, const Eigen::VectorXd& features) {
   Eigen::VectorXd scores(model.size());
   for (Eigen::Index mode = 0; mode < model.size(); ++mode)
-    scores[mode] = inner(metric, difference.data(), model.modes.col(mode).data()) / model.variances[mode];
+    scores[mode] = inner(features, model.feature_modes.col(mode)) / model.variances[mode];
   return scores;
 }
 

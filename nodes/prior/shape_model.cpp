@@ -31,6 +31,20 @@ double mean_size(const Eigen::VectorXd& weights, const LabelledPoints& points) {
   return sum;
 }
 
+/// The direction of the sum of the instances' normals; of the first one where they cancel.
+LabelledPoints mean_normals(std::span<const LabelledShape> instances,
+                            const std::vector<Superposition>& poses) {
+  LabelledPoints normals(3, instances[0].normals.cols());
+  for (Eigen::Index point = 0; point < normals.cols(); ++point) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < instances.size(); ++i)
+      sum += poses[i].rotation * instances[i].normals.col(point);
+    if (!(sum.norm() > 1e-9)) sum = poses[0].rotation * instances[0].normals.col(point);
+    normals.col(point) = sum / sum.norm();
+  }
+  return normals;
+}
+
 }  // namespace
 
 LabelledShape labelled_shape(const MatchedBalls& matched) {
@@ -74,8 +88,7 @@ ShapeModel shape_model(std::span<const LabelledShape> instances, const ShapeMode
   superposition.scale = options.scale;
   model.poses = generalized_procrustes(labelled, model.weights, superposition, monitor).poses;
 
-  const Eigen::Index length = 4 * model.balls + 3 * model.points;
-  Eigen::MatrixXd vectors(length, static_cast<Eigen::Index>(instances.size()));
+  Eigen::MatrixXd vectors(4 * model.balls + 3 * model.points, static_cast<Eigen::Index>(instances.size()));
   Eigen::VectorXd sizes(vectors.cols());
   double radii = 0;
   for (std::size_t i = 0; i < instances.size(); ++i) {
@@ -86,14 +99,29 @@ ShapeModel shape_model(std::span<const LabelledShape> instances, const ShapeMode
     for (Eigen::Index ball = 0; ball < model.balls; ++ball) radii += exponential(shape.log_radii[ball]);
   }
   radii /= static_cast<double>(model.balls * vectors.cols());
-  model.radius_unit = options.radius_weight * radii;
-  model.metric.resize(length);
-  model.metric.head(3 * model.balls).setConstant(per_ball);
-  model.metric.segment(3 * model.balls, model.balls)
-      .setConstant(per_ball * model.radius_unit * model.radius_unit);
-  model.metric.tail(3 * model.points).setConstant(per_point);
-  model.linear = linear_model(vectors, model.metric, sizes, options.modes);
+  model.metric = {per_ball, per_point, options.radius_weight * radii, options.along,
+                  mean_normals(instances, model.poses)};
+  const Eigen::VectorXd first = vectors.col(0);
+  Eigen::MatrixXd features(4 * model.balls + 4 * model.points, vectors.cols());
+  for (Eigen::Index i = 0; i < vectors.cols(); ++i)
+    features.col(i) = model.metric.features(vectors.col(i) - first);
+  model.linear = linear_model(vectors, features, sizes, options.modes);
   return model;
+}
+
+Eigen::VectorXd ShapeMetric::features(const Eigen::VectorXd& displacement) const {
+  const Eigen::Index m = normals.cols(), k = (displacement.size() - 3 * m) / 4;
+  Eigen::VectorXd result(4 * k + 4 * m);
+  const double ball = std::sqrt(per_ball), off = std::sqrt(per_point), beside = std::sqrt(per_point * along);
+  result.head(3 * k) = ball * displacement.head(3 * k);
+  result.segment(3 * k, k) = (ball * radius_unit) * displacement.segment(3 * k, k);
+  for (Eigen::Index i = 0; i < m; ++i) {
+    const Eigen::Vector3d moved = displacement.segment<3>(4 * k + 3 * i);
+    const double height = moved.dot(normals.col(i));
+    result[4 * k + 4 * i] = off * height;
+    result.segment<3>(4 * k + 4 * i + 1) = beside * (moved - height * normals.col(i));
+  }
+  return result;
 }
 
 Eigen::VectorXd vector_of(const LabelledShape& shape) {
@@ -122,6 +150,7 @@ Projection project(const ShapeModel& model, const LabelledShape& shape, Eigen::I
   LinearModel first = model.linear;
   const Eigen::Index count = std::min(modes, first.size());
   first.modes = model.linear.modes.leftCols(count);
+  first.feature_modes = model.linear.feature_modes.leftCols(count);
   first.variances = model.linear.variances.head(count);
   const LabelledPoints labelled = all_points(shape);
   Projection result;
@@ -130,7 +159,7 @@ Projection project(const ShapeModel& model, const LabelledShape& shape, Eigen::I
     const LabelledPoints target = all_points(shape_of(vector_of(first, result.scores), model.balls));
     result.pose = superimpose(labelled, target, model.weights, model.scale);
     const Eigen::VectorXd scores =
-        scores_of(first, model.metric, vector_of(transformed(result.pose, shape)));
+        scores_of(first, model.metric.features(vector_of(transformed(result.pose, shape)) - first.mean));
     const double change = count == 0 ? 0 : (scores - result.scores).cwiseAbs().maxCoeff();
     result.scores = scores;
     if (change <= standstill) break;
@@ -139,12 +168,7 @@ Projection project(const ShapeModel& model, const LabelledShape& shape, Eigen::I
 }
 
 double model_distance(const ShapeModel& model, const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  double sum = 0;
-  for (Eigen::Index i = 0; i < a.size(); ++i) {
-    const double difference = a[i] - b[i];
-    sum += model.metric[i] * difference * difference;
-  }
-  return std::sqrt(sum);
+  return model.metric.features(a - b).norm();
 }
 
 }  // namespace ballflow::geometry

@@ -13,7 +13,8 @@ namespace ballflow::geometry {
 struct ShapeModelOptions {
   bool scale = false;        // instances are scaled to one size, and differ in shape alone
   double radius_weight = 1;  // how much logarithms of radii count, in mean radii
-  double point_share = 0.5;  // of the surface points in the metric, from 0 to 1; the rest is that of the balls
+  double point_share = 1;    // of the surface points in the metric, from 0 to 1; the rest is that of the balls
+  double along = 0.1;        // weight of what moves points along the surface
   int modes = 1000;          // at most
 };
 
@@ -31,11 +32,21 @@ struct LabelledShape {
 LabelledShape labelled_shape(const MatchedBalls& matched);
 LabelledShape transformed(const Superposition& pose, const LabelledShape& shape);
 
+/// The inner product of displacements of all balls and points: a mean square, in squared model units.
+struct ShapeMetric {
+  double per_ball = 0, per_point = 0;  // weights
+  double radius_unit = 0;  // a logarithm of a radius counts as a length of so much, model units
+  double along = 1;        // weight of what moves points along the surface
+  LabelledPoints normals;  // of the points, of length 1
+
+  /// A linear function, whose squared length is the square in the metric.
+  Eigen::VectorXd features(const Eigen::VectorXd& displacement) const;
+};
+
 struct ShapeModel {
   LinearModel linear;
-  Eigen::VectorXd metric;      // of a vector; see below
+  ShapeMetric metric;
   Eigen::VectorXd weights;     // of the centers and the points in superpositions
-  double radius_unit = 0;      // a logarithm of a radius counts as a length of so much, model units
   Eigen::Index balls = 0, points = 0;
   bool scale = false;
   std::vector<Superposition> poses;  // of the instances, to the coordinates of the model
@@ -46,8 +57,9 @@ struct ShapeModel {
 ///
 /// The metric is a mean squared displacement, so variances are squared model units: (1 - point_share) times
 /// the mean over the balls of dx^2 + dy^2 + dz^2 + (w d log r)^2, with w = radius_weight times the mean
-/// radius of all balls and instances, and point_share times the mean over the points of dx^2 + dy^2 + dz^2.
-/// To first order w d log r is the change of a radius for a ball of mean size.
+/// radius of all balls and instances, and point_share times the mean over the points of the squared
+/// displacement off the surface plus `along` times that along it, by the mean of the instances' normals. To
+/// first order w d log r is the change of a radius for a ball of mean size.
 ///
 /// At least one instance, all with as many balls and points. The same order, the same bits.
 ShapeModel shape_model(std::span<const LabelledShape> instances, const ShapeModelOptions& options,
@@ -67,7 +79,7 @@ struct Projection {
 /// The pose and the scores for which the model is next to the instance, label by label, by turns.
 Projection project(const ShapeModel& model, const LabelledShape& shape, Eigen::Index modes);
 
-/// Root of the metric of the difference.
+/// Root of the square of the difference in the metric.
 double model_distance(const ShapeModel& model, const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 
 }  // namespace ballflow::geometry

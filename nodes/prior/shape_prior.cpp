@@ -111,7 +111,7 @@ void look_at_instances(std::span<const LabelledShape> instances, const ShapeMode
     }
   }
   const LabelledShape mean = shape_of(model.linear.mean, model.balls);
-  const Eigen::VectorXd weights = model.weights.head(model.balls);
+  const Eigen::VectorXd weights = Eigen::VectorXd::Constant(model.balls, 1.0);
   for (std::size_t i = 0; i < n; ++i) {
     const LabelledShape shape = transformed(model.poses[i], instances[i]);
     const Superposition pose = superimpose(shape.centers, mean.centers, weights, false);
@@ -143,20 +143,6 @@ std::vector<Vec3> points_of(const LabelledPoints& points) {
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     result.push_back({points(0, i), points(1, i), points(2, i)});
   return result;
-}
-
-/// The direction of the sum of the instances' normals; of the first one where they cancel.
-std::vector<Vec3> mean_normals(std::span<const LabelledShape> instances, const ShapeModel& model) {
-  std::vector<Vec3> normals;
-  for (Eigen::Index point = 0; point < model.points; ++point) {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i < instances.size(); ++i)
-      sum += model.poses[i].rotation * instances[i].normals.col(point);
-    if (!(sum.norm() > 1e-9)) sum = model.poses[0].rotation * instances[0].normals.col(point);
-    sum /= sum.norm();
-    normals.push_back({sum[0], sum[1], sum[2]});
-  }
-  return normals;
 }
 
 void keep_modes(const ShapeModel& model, ShapePrior& prior) {
@@ -195,13 +181,14 @@ ShapePrior shape_prior(std::span<const MatchedBalls> instances, std::span<const 
   wanted.scale = options.scale;
   wanted.radius_weight = options.radius_weight;
   wanted.point_share = options.point_share;
+  wanted.along = options.along;
   PartMonitor learning(monitor, 0, 0.2);
   const ShapeModel all = shape_model(shapes, wanted, learning);
 
   const LabelledShape mean = shape_of(all.linear.mean, all.balls);
   Box box = bounding_box(points_of(mean.centers));
   for (const Vec3& p : points_of(mean.points)) box.add(p);
-  const double size = std::max(box.longest_edge(), all.radius_unit);
+  const double size = std::max(box.longest_edge(), all.metric.radius_unit);
   double total = 0;
   for (const double variance : all.linear.variances) total += variance;
   if (!(total > same_shape * same_shape * size * size)) {
@@ -214,6 +201,7 @@ ShapePrior shape_prior(std::span<const MatchedBalls> instances, std::span<const 
   if (options.modes > 0 && options.modes < all.linear.size()) {
     const auto kept = static_cast<Eigen::Index>(options.modes);
     model.linear.modes = all.linear.modes.leftCols(kept);
+    model.linear.feature_modes = all.linear.feature_modes.leftCols(kept);
     model.linear.variances = all.linear.variances.head(kept);
     model.linear.scores = all.linear.scores.leftCols(kept);
     wanted.modes = static_cast<int>(kept);
@@ -226,9 +214,10 @@ ShapePrior shape_prior(std::span<const MatchedBalls> instances, std::span<const 
   for (const double log_radius : mean.log_radii) radii.push_back(exponential(log_radius));
   prior.radii = std::move(radii);
   prior.points = points_of(mean.points);
-  prior.normals = mean_normals(shapes, model);
+  prior.normals = points_of(model.metric.normals);
   prior.point_share = model.points == 0 ? 0 : options.point_share;
-  prior.radius_unit = model.radius_unit;
+  prior.along = options.along;
+  prior.radius_unit = model.metric.radius_unit;
   prior.total_variance = total;
   prior.scaled = options.scale ? 1 : 0;
   keep_modes(model, prior);

@@ -24,8 +24,9 @@ struct ShapePrior {
     d.doc(
         "Superimposes all instances on their mean (generalized Procrustes analysis, no instance is "
         "privileged) and takes the principal components of balls and surface points. The metric is a mean "
-        "squared displacement: of a ball dx^2 + dy^2 + dz^2 + (w d log r)^2, where w is the mean radius, so "
-        "that a radius counts as the length by which it changes. The model lies in the coordinates of the "
+        "squared displacement: of a point that off the surface and a part of that along it, of a ball dx^2 + "
+        "dy^2 + dz^2 + (w d log r)^2, where w is the mean radius, so that a radius counts as the length by "
+        "which it changes. The model lies in the coordinates of the "
         "instance that is most like the mean. Generalization leaves one instance out after the other, "
         "specificity draws random shapes; both with their standard deviations. The order of the instances "
         "changes the order of the scores only. Refuses one instance, instances without any difference, and "
@@ -55,7 +56,16 @@ struct ShapePrior {
         .unit("1")
         .at_least(0)
         .at_most(1)
-        .doc("weight of the surface points, the rest is that of the balls; 0: points only follow");
+        .doc(
+            "weight of the surface points, the rest is that of the balls. 1: the surface decides and balls "
+            "follow, without the noise of which of its balls an instance was matched by; 0: balls decide");
+    d.param("along", &ShapePrior::options, &ShapePriorOptions::along)
+        .unit("1")
+        .at_least(0)
+        .at_most(1)
+        .doc(
+            "weight of what moves points along the surface, against what moves them off it: where flat faces "
+            "are matched, points slide without a change of shape");
     d.param("modes", &ShapePrior::options, &ShapePriorOptions::modes)
         .unit("modes")
         .at_least(0)

@@ -76,6 +76,7 @@ std::string broken_invariant(const ShapePrior& v) {
       return "normal " + std::to_string(i) + " is not of length 1";
   }
   if (!(v.point_share >= 0 && v.point_share <= 1)) return "the share of the points is not in [0, 1]";
+  if (!(v.along >= 0 && v.along <= 1)) return "the weight along the surface is not in [0, 1]";
   if (!(v.radius_unit >= 0) || !std::isfinite(v.radius_unit)) return "the unit of radii is negative";
   if (!(v.total_variance >= 0) || !std::isfinite(v.total_variance)) return "the total variance is negative";
   if (v.measure > 2 || v.scaled > 1) return "measure or scaled is no choice";

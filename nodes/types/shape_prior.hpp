@@ -24,13 +24,13 @@ enum class SurfaceMeasure : std::uint8_t {
 ///
 /// The metric of vectors is a mean squared displacement, squared model units: (1 - point_share) times the mean
 /// over the balls of dx^2 + dy^2 + dz^2 + (radius_unit * d log r)^2, plus point_share times the mean over the
-/// points of dx^2 + dy^2 + dz^2.
+/// points of the squared displacement along the normal plus `along` times the square of the rest of it.
 struct ShapePrior {
   Array<Vec3> centers;  // k x 3, of the mean, model units
   Array<double> radii;  // k, above 0: geometric means
   Array<Vec3> points;   // m x 3, of the mean surface
   Array<Vec3> normals;  // m x 3, of length 1, outwards
-  double point_share = 0, radius_unit = 0;
+  double point_share = 0, radius_unit = 0, along = 1;
 
   // q modes, those of largest variance first. Signs: of the scores of a mode the one of largest absolute value
   // is positive.

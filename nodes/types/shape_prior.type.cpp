@@ -17,6 +17,7 @@ void TypeOf<geometry::ShapePrior>::declare(TypeDecl<geometry::ShapePrior>& d) {
   d.array("normals", &T::normals).length("m").optional().doc("of the mean surface, of length 1");
   d.scalar("point_share", &T::point_share).doc("weight of the points in the metric; the rest is the balls'");
   d.scalar("radius_unit", &T::radius_unit).doc("length that a change of log r by 1 counts as, model units");
+  d.scalar("along", &T::along).doc("weight of displacements of points along the surface");
   d.array("modes", &T::modes)
       .length("qk")
       .optional()

@@ -117,6 +117,7 @@ TEST(oracle, procrustes_analysis_and_modes_are_those_of_numpy_and_scipy) {
     ShapePriorOptions options;
     options.scale = one.scale;
     options.point_share = one.share;
+    options.along = 1;
     options.draws = 0;
     const ShapePrior prior = shape_prior(known.members, {}, options);
     std::string text = "{\"scale\":" + std::string(one.scale ? "true" : "false") + ",\"share\":" +

@@ -68,6 +68,7 @@ TEST(shape_prior, finds_the_two_numbers_that_its_instances_differ_in) {
 }
 
 TEST(shape_prior, an_instance_is_the_mean_and_its_scores) {
+  // But for modes of a millionth of the first one, which are left out.
   const Family known = family(5);
   const ShapePrior prior = shape_prior(known.members, {});
   for (std::size_t i = 0; i < known.members.size(); ++i) {
@@ -75,11 +76,11 @@ TEST(shape_prior, an_instance_is_the_mean_and_its_scores) {
     const Balls balls = shape_instance(prior, scores);
     const PointSet points = instance_points(prior, scores);
     for (std::size_t ball = 0; ball < balls.size(); ++ball) {
-      EXPECT_LT(distance(balls.centers[ball], applied(prior.poses[i], known.members[i].centers[ball])), 1e-9);
-      EXPECT_NEAR(balls.radii[ball], known.members[i].radii[ball], 1e-9);
+      EXPECT_LT(distance(balls.centers[ball], applied(prior.poses[i], known.members[i].centers[ball])), 1e-6);
+      EXPECT_NEAR(balls.radii[ball], known.members[i].radii[ball], 1e-6);
     }
     for (std::size_t j = 0; j < points.points.size(); ++j)
-      EXPECT_LT(distance(points.points[j], applied(prior.poses[i], known.members[i].points[j])), 1e-9);
+      EXPECT_LT(distance(points.points[j], applied(prior.poses[i], known.members[i].points[j])), 1e-6);
   }
 }
 
@@ -87,6 +88,7 @@ TEST(shape_prior, variances_are_mean_squared_displacements_in_the_metric) {
   ShapePriorOptions options;
   options.point_share = 0.25;
   options.radius_weight = 2;
+  options.along = 0.2;
   const Family known = family(6);
   const ShapePrior prior = shape_prior(known.members, {}, options);
   double radius = 0, total = 0;
@@ -101,8 +103,11 @@ TEST(shape_prior, variances_are_mean_squared_displacements_in_the_metric) {
       const double growth = prior.radius_unit * std::log(member.radii[b] / prior.radii[b]);
       balls += squared_distance(applied(prior.poses[i], member.centers[b]), prior.centers[b]) + growth * growth;
     }
-    for (std::size_t j = 0; j < member.points.size(); ++j)
-      points += squared_distance(applied(prior.poses[i], member.points[j]), prior.points[j]);
+    for (std::size_t j = 0; j < member.points.size(); ++j) {
+      const Vec3 moved_by = applied(prior.poses[i], member.points[j]) - prior.points[j];
+      const double off = dot(moved_by, prior.normals[j]);
+      points += off * off + 0.2 * (squared_length(moved_by) - off * off);
+    }
     const double squared = 0.75 * balls / static_cast<double>(member.size()) +
                            0.25 * points / static_cast<double>(member.points.size());
     EXPECT_NEAR(prior.distances[i] * prior.distances[i], squared, 1e-12);
