@@ -14,7 +14,7 @@ struct ShapeModelOptions {
   bool scale = false;        // instances are scaled to one size, and differ in shape alone
   double radius_weight = 1;  // how much logarithms of radii count, in mean radii
   double point_share = 1;    // of the surface points in the metric, from 0 to 1; the rest is that of the balls
-  double along = 0.1;        // weight of what moves points along the surface
+  double along = 0.03;       // weight of what moves points along the surface
   int modes = 1000;          // at most
 };
 

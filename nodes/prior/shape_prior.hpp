@@ -15,7 +15,7 @@ struct ShapePriorOptions {
   bool scale = false;         // instances are scaled to one size, and differ in shape alone
   double radius_weight = 1;   // how much logarithms of radii count, in mean radii
   double point_share = 1;     // of the surface points in the metric, from 0 to 1; the rest is the balls'
-  double along = 0.1;         // weight of what moves points along the surface, against what moves them off it
+  double along = 0.03;        // weight of what moves points along the surface, against what moves them off it
   std::int64_t modes = 0;     // at most; 0: as many as there are
   std::int64_t draws = 200;   // random shapes for the specificity; 0: neither that nor the generalization
 };

@@ -16,6 +16,7 @@ using test::ProcessResult;
 
 struct ExportTest : testing::Test {
   test::TempFolder folder;
+  std::string prior;  // digest of the model of shapes that a graph has made
 
   ProcessResult ballflow(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), test::binary_file("bin/ballflow"));
@@ -32,15 +33,16 @@ struct ExportTest : testing::Test {
                                     : graph == "ball_distance"    ? "threshold=1"
                                     : graph == "sweep_along_path" ? "tool=shape:sphere?n=400&R=0.2"
                                     : graph == "path"             ? "robot=shape:sphere?n=400&R=0.1"
-                                    : graph == "shape_match"
-                                        ? "instances=shape:bracket?n=2000&r=0.2,shape:bracket?n=2000&r=0.3"
-                                        : "input=shape:torus?n=1500"});
+                                    : graph == "shape_prior"      ? "balls=20"
+                                    : graph == "shape_fit"        ? "prior=" + prior
+                                                                  : "input=shape:torus?n=1500"});
     const ProcessResult result = ballflow(run);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     std::map<std::string, std::pair<std::string, std::string>> found;
     const json document = json::parse(test::read_file(report));
     for (const auto& [name, output] : document.at("outputs").items()) {
       found[name] = {output.at("type"), output.at("digest")};
+      if (output.at("type") == "ShapePrior") prior = output.at("digest");
     }
     return found;
   }
@@ -78,7 +80,7 @@ TEST_F(ExportTest, every_type_of_a_run_is_exported_to_the_last_bit_in_every_form
   std::size_t files = 0;
   for (const char* graph :
        {"dmt", "medial_axis", "growth", "local_feature_size", "seed_polytope", "check_spheres", "discs",
-        "ball_distance", "sweep_along_path", "path", "shape_match"}) {
+        "ball_distance", "sweep_along_path", "path", "shape_prior", "shape_fit"}) {
     for (const auto& [name, output] : outputs(graph)) {
       const auto& [type, digest] = output;
       const std::vector<std::string> all =

@@ -2,6 +2,7 @@
 // depend on the number of threads.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
@@ -49,16 +50,33 @@ void expect_equal_digests(const Dag& dag, const std::vector<RunResult>& results)
   }
 }
 
+/// A model of shapes, made once: graphs that take one have no default.
+ArtifactPtr model_of_shapes() {
+  static const ArtifactPtr model = [] {
+    const Dag dag = load_graph(test::source_file("graphs/shape_prior.json"), registry(), {{"balls", "20"}});
+    Silent silent;
+    Runner runner(dag, registry(), Store::open({}), {}, silent);
+    EXPECT_EQ(runner.run().status, ExitCode::ok);
+    const auto prior = std::find_if(dag.outputs.begin(), dag.outputs.end(),
+                                    [](const DagOutput& output) { return output.name == "prior"; });
+    return runner.artifact(prior->from);
+  }();
+  return model;
+}
+
 class EveryGraph : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryGraph, runs_on_a_generated_model_with_equal_digests_for_any_number_of_threads) {
   const std::string file = test::source_file("graphs/" + GetParam() + ".json");
-  const bool takes_input = load_graph(file, registry()).params.count("input") != 0;
+  std::map<std::string, ArtifactPtr> given;
+  if (GetParam() == "shape_instance" || GetParam() == "shape_fit") given["prior"] = model_of_shapes();
+  const bool takes_input = load_graph(file, registry(), {}, {}, given).params.count("input") != 0;
   std::vector<Setting> settings;
   if (takes_input) settings.push_back({"input", "shape:torus?n=4000"});
   // Fits with many balls take longest, and differ from these in their number alone.
   if (GetParam() == "robot_spheres") settings.push_back({"curves.fits", "2,4"});
-  const Dag dag = load_graph(file, registry(), settings);
+  if (GetParam() == "shape_fit") settings = {{"input", "shape:bumpBox?n=1500&r=0.65"}};
+  const Dag dag = load_graph(file, registry(), settings, {}, given);
   EXPECT_FALSE(dag.doc.empty());
   const auto results = run_with_threads(dag, {1, 2, 4});
   ASSERT_EQ(results[0].status, ExitCode::ok);

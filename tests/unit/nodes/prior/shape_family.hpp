@@ -1,7 +1,6 @@
 // A family of shapes whose modes are known: labelled balls and surface points of an ellipsoid.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -12,15 +11,9 @@
 
 namespace ballflow::geometry {
 
-/// Keeps the warnings of a computation.
-struct Warnings : Monitor {
-  std::vector<std::string> all;
-  void warn(const std::string& text) override { all.push_back(text); }
-  bool has(const std::string& words) const {
-    return std::any_of(all.begin(), all.end(),
-                       [&](const std::string& text) { return text.find(words) != std::string::npos; });
-  }
-};
+inline bool says(const Warnings& warnings, const std::string& words) {
+  return warnings.text.find(words) != std::string::npos;
+}
 
 /// k balls in, and m points on, an ellipsoid of about 3 x 2 x 1. `length` stretches it along x, `growth` makes
 /// its balls larger and its surface with them along z: two modes that are linear in these numbers.

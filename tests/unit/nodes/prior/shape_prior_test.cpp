@@ -210,19 +210,19 @@ TEST(shape_prior, warns_of_twins_of_mirror_images_and_of_other_shapes) {
   {
     Warnings warnings;
     shape_prior(members, {}, {}, warnings);
-    EXPECT_TRUE(warnings.all.empty()) << warnings.all.front();
+    EXPECT_EQ(warnings.text, "");
   }
   members.push_back(moved(members[2], ShapePose{}));
   {
     Warnings warnings;
     shape_prior(members, {}, {}, warnings);
-    EXPECT_TRUE(warnings.has("instances 2 and 6 are the same shape"));
+    EXPECT_TRUE(says(warnings, "instances 2 and 6 are the same shape"));
   }
   members[6] = family_member(2, 0.5);
   {
     Warnings warnings;
     shape_prior(members, {}, {}, warnings);
-    EXPECT_TRUE(warnings.has("instance 6 (of 0 to 6) is "));
+    EXPECT_TRUE(says(warnings, "instance 6 (of 0 to 6) is "));
   }
   ShapePose mirror;
   mirror.rotation = {-1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -231,14 +231,14 @@ TEST(shape_prior, warns_of_twins_of_mirror_images_and_of_other_shapes) {
   {
     Warnings warnings;
     shape_prior(members, {}, {}, warnings);
-    EXPECT_TRUE(warnings.has("as its mirror image"));
+    EXPECT_TRUE(says(warnings, "as its mirror image"));
   }
   // Matched as a mirror image it is one of them.
   members[6].mirrored = 1;
   {
     Warnings warnings;
     const ShapePrior prior = shape_prior(members, {}, {}, warnings);
-    EXPECT_FALSE(warnings.has("mirror")) << warnings.all.front();
+    EXPECT_FALSE(says(warnings, "mirror")) << warnings.text;
     const auto& pose = prior.poses[6];
     EXPECT_NEAR(distance(applied(pose, members[6].centers[0]),
                          shape_instance(prior, scores_of_instance(prior, 6)).centers[0]),
