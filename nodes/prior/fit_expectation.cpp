@@ -9,8 +9,8 @@
 namespace ballflow::geometry {
 namespace {
 
-constexpr double farthest = 49;               // squared widths
-constexpr double squared_turn = 0.7 * 0.7;    // of normals, as 1 - cosine
+constexpr double farthest = 49;             // squared widths
+constexpr double squared_turn = 0.7 * 0.7;  // of normals, as 1 - cosine
 
 }  // namespace
 
@@ -22,8 +22,8 @@ Correspondence expectation(const OrientedPoints& parts, const OrientedPoints& ob
   const bool turned = parts.normals.cols() > 0 && observed.normals.cols() > 0;
   // The density of outliers against that of a part, without the factor of the Gaussians.
   const double width = std::sqrt(2 * pi * noise.squared_width);
-  const double anywhere = noise.outliers / (1 - noise.outliers) * width * width * width *
-                          static_cast<double>(m) / noise.volume;
+  const double anywhere =
+      noise.outliers / (1 - noise.outliers) * width * width * width * static_cast<double>(m) / noise.volume;
 
   Correspondence all;
   all.explained.resize(n);
@@ -43,8 +43,7 @@ Correspondence expectation(const OrientedPoints& parts, const OrientedPoints& ob
         const double squared = (x - parts.points.col(part)).squaredNorm();
         if (squared > farthest * noise.squared_width) continue;
         double exponent = -squared / (2 * noise.squared_width);
-        if (turned)
-          exponent -= (1 - observed.normals.col(point).dot(parts.normals.col(part))) / squared_turn;
+        if (turned) exponent -= (1 - observed.normals.col(point).dot(parts.normals.col(part))) / squared_turn;
         near.emplace_back(part, exponential(exponent));
         sum += near.back().second;
       }

@@ -21,11 +21,11 @@ struct FitNoise {
 
 /// Sums over the observation, weighted by the probability that a point comes from part i of the shape.
 struct Correspondence {
-  Eigen::VectorXd mass;              // of each part
-  Eigen::Matrix3Xd sums;             // of points
-  Eigen::VectorXd value_sums;        // of values
-  std::vector<double> explained;     // of each observed point: the probability that it comes from any part
-  double total = 0, squares = 0;     // of probabilities; of squared distances, weighted by them
+  Eigen::VectorXd mass;           // of each part
+  Eigen::Matrix3Xd sums;          // of points
+  Eigen::VectorXd value_sums;     // of values
+  std::vector<double> explained;  // of each observed point: the probability that it comes from any part
+  double total = 0, squares = 0;  // of probabilities; of squared distances, weighted by them
 };
 
 /// All pairs nearer than 7 widths: time O(parts x points). In blocks, merged in order: the same bits for any

@@ -62,8 +62,7 @@ double squared_difference(const LabelledPoints& a, const LabelledPoints& b, cons
 LabelledPoints transformed(const Superposition& pose, const LabelledPoints& points) {
   const Eigen::Matrix3d matrix = pose.scale * pose.rotation;
   LabelledPoints result(3, points.cols());
-  for (Eigen::Index i = 0; i < points.cols(); ++i)
-    result.col(i) = matrix * points.col(i) + pose.translation;
+  for (Eigen::Index i = 0; i < points.cols(); ++i) result.col(i) = matrix * points.col(i) + pose.translation;
   return result;
 }
 
@@ -99,8 +98,8 @@ double mirrored_residual(const LabelledPoints& moved, const LabelledPoints& targ
 }
 
 ProcrustesMean generalized_procrustes(std::span<const LabelledPoints> instances,
-                                      const Eigen::VectorXd& weights, const GeneralizedProcrustesOptions& options,
-                                      Monitor& monitor) {
+                                      const Eigen::VectorXd& weights,
+                                      const GeneralizedProcrustesOptions& options, Monitor& monitor) {
   const std::size_t n = instances.size();
   const double count = static_cast<double>(n);
   std::vector<LabelledPoints> shapes;

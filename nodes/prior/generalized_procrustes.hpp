@@ -55,7 +55,8 @@ struct ProcrustesMean {
 /// ones the first). Other orders of the instances change the result by rounding only; equal orders give equal
 /// bits. At least one instance; all have the same number of points, at least one.
 ProcrustesMean generalized_procrustes(std::span<const LabelledPoints> instances,
-                                      const Eigen::VectorXd& weights, const GeneralizedProcrustesOptions& options,
+                                      const Eigen::VectorXd& weights,
+                                      const GeneralizedProcrustesOptions& options,
                                       Monitor& monitor = no_monitor());
 
 }  // namespace ballflow::geometry

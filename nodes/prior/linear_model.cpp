@@ -7,7 +7,7 @@
 namespace ballflow::geometry {
 namespace {
 
-constexpr double rounding = 1e-12;   // of the largest variance
+constexpr double rounding = 1e-12;  // of the largest variance
 constexpr double as_large = 1e-6;
 
 /// Eigen's own products sum in an order that follows the cache of the machine.

@@ -11,7 +11,7 @@ struct LinearModel {
   Eigen::MatrixXd modes;          // D x q: what one standard deviation adds
   Eigen::MatrixXd feature_modes;  // L x q: the same of the features
   Eigen::VectorXd variances;      // q, descending, of the features
-  Eigen::MatrixXd scores;     // n x q, of the vectors that it was made from, in standard deviations
+  Eigen::MatrixXd scores;         // n x q, of the vectors that it was made from, in standard deviations
 
   Eigen::Index size() const { return variances.size(); }
 };
@@ -19,7 +19,8 @@ struct LinearModel {
 /// Principal components of the columns of `features` (L x n, whose mean need not be 0). The columns of
 /// `vectors` (D x n) follow the scores: the modes are linear in them, and right for the columns themselves.
 ///
-/// - The variance of a mode is that of n - 1 degrees of freedom. Modes below 1e-12 of the first one's variance
+/// - The variance of a mode is that of n - 1 degrees of freedom. Modes below 1e-12 of the first one's
+/// variance
 ///   are rounding and left out; at most `most` stay, and n - 1.
 /// - The sign of a mode: its score of largest absolute value is positive. Of scores that are as large but for
 ///   1e-6 (two instances always are) that of the column with the largest `sizes` entry decides. So signs do

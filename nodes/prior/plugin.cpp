@@ -1,5 +1,5 @@
-// The family "prior": shapes of one kind, laid on each other and matched ball by ball, what they have in common,
-// and what follows from that for a part of another one.
+// The family "prior": shapes of one kind, laid on each other and matched ball by ball, what they have in
+// common, and what follows from that for a part of another one.
 #include <ballflow/sdk/library.hpp>
 
 namespace ballflow::nodes {

@@ -26,13 +26,14 @@ struct InstanceSurface {
 SurfaceMeasure measure_of(std::span<const InstanceSurface> surfaces);
 
 /// Leave one out: the mean distance of the surface points of the model of the others, next to an instance
-/// label by label, from the surface of the instance. Modes from 0 to as many as every one of these models has.
-/// Instances one beside the other on several threads, sums in their order.
+/// label by label, from the surface of the instance. Modes from 0 to as many as every one of these models
+/// has. Instances one beside the other on several threads, sums in their order.
 ModeCurve generalization(std::span<const LabelledShape> instances, std::span<const InstanceSurface> surfaces,
                          const ShapeModelOptions& options, Monitor& monitor);
 
 /// The mean distance, label by label, of random shapes with 1, 2, ... modes from the nearest instance:
-/// `draws` of them, with standard normal scores. Of the points, or of the balls' centers where there are none.
+/// `draws` of them, with standard normal scores. Of the points, or of the balls' centers where there are
+/// none.
 ModeCurve specificity(std::span<const LabelledShape> instances, const ShapeModel& model, std::int64_t draws,
                       Monitor& monitor);
 

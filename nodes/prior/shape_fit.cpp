@@ -13,11 +13,11 @@
 namespace ballflow::geometry {
 namespace {
 
-constexpr double along_plane = 0.1;      // weight of distances along tangent planes, against those from them
-constexpr double narrowest = 1e-3;       // width, in root mean square radii
-constexpr double standstill = 1e-3;      // of the squared width from step to step
+constexpr double along_plane = 0.1;  // weight of distances along tangent planes, against those from them
+constexpr double narrowest = 1e-3;   // width, in root mean square radii
+constexpr double standstill = 1e-3;  // of the squared width from step to step
 constexpr double most_outliers = 0.7, fewest_outliers = 0.01;
-constexpr double tiny_ball = 0.05;       // of the median radius
+constexpr double tiny_ball = 0.05;  // of the median radius
 constexpr double far_residual = 3, far_scores = 3;
 
 /// The parts of the model that are observed: surface points, or centers of balls with logarithms of radii.
@@ -153,8 +153,8 @@ class Fitter {
     return pairs;
   }
 
-  /// One Gauss-Newton step from the present shape: the derivative of part i is that of its modes, of a turn, a
-  /// shift and a growth of the whole.
+  /// One Gauss-Newton step from the present shape: the derivative of part i is that of its modes, of a turn,
+  /// a shift and a growth of the whole.
   void solve(const Correspondence& pairs) {
     const Eigen::Index q = scores_.size(), unknowns = q + 6 + (options_.scale ? 1 : 0);
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns, unknowns);
@@ -195,9 +195,8 @@ class Fitter {
     }
     // A turn around an axis of the observation may be free: nothing is drawn there then.
     const double little = 1e-9 * normal.diagonal().maxCoeff();
-    for (Eigen::Index i = q; i < unknowns; ++i) normal(i, i) += little * (i < q + 3 || i == q + 6
-                                                                             ? parts_.radius * parts_.radius
-                                                                             : 1);
+    for (Eigen::Index i = q; i < unknowns; ++i)
+      normal(i, i) += little * (i < q + 3 || i == q + 6 ? parts_.radius * parts_.radius : 1);
     const Eigen::LDLT<Eigen::MatrixXd> factors(normal);
     const Eigen::VectorXd step = factors.solve(right);
     covariance_ = factors.solve(Eigen::MatrixXd::Identity(unknowns, unknowns));
@@ -305,9 +304,10 @@ void place_balls(const ShapePrior& prior, const Fitter& fitter, ShapeFit& fit) {
 void warn_where_far(const ShapePrior& prior, const ShapeFit& fit, Monitor& monitor) {
   const auto part = [](double x) { return std::to_string(std::lround(100 * x)) + " %"; };
   if (fit.outliers > 0.5) {
-    monitor.warn(part(fit.outliers) +
-                 " of the observation are explained by no part of the shape: it lies elsewhere, or is another "
-                 "shape. Look at the pose it starts from");
+    monitor.warn(
+        part(fit.outliers) +
+        " of the observation are explained by no part of the shape: it lies elsewhere, or is another "
+        "shape. Look at the pose it starts from");
   }
   if (fit.expected > 0 && fit.residual > far_residual * fit.expected) {
     monitor.warn("the observation is " + std::to_string(fit.residual / fit.expected) +
@@ -364,8 +364,8 @@ ShapeFit fitted(const ShapePrior& prior, const Parts& parts, const Observation& 
 
 }  // namespace
 
-ShapeFit shape_fit(const ShapePrior& prior, const PointSet& observation, const std::optional<ShapePose>& start,
-                   const ShapeFitOptions& options, Monitor& monitor) {
+ShapeFit shape_fit(const ShapePrior& prior, const PointSet& observation,
+                   const std::optional<ShapePose>& start, const ShapeFitOptions& options, Monitor& monitor) {
   if (prior.points.size() < 4) {
     throw InputError("the model has " + std::to_string(prior.points.size()) + " surface points",
                      "match with surface points when the model is made, or fit it to balls");
@@ -378,8 +378,8 @@ ShapeFit shape_fit(const ShapePrior& prior, const PointSet& observation, const s
     points.push_back(observation.points[at]);
     if (!observation.normals.empty()) normals.push_back(observation.normals[at]);
   }
-  return fitted(prior, surface_of(prior, modes_used(prior, options)), {{columns(points), columns(normals)}, {}},
-                start, options, monitor);
+  return fitted(prior, surface_of(prior, modes_used(prior, options)),
+                {{columns(points), columns(normals)}, {}}, start, options, monitor);
 }
 
 ShapeFit shape_fit(const ShapePrior& prior, const Balls& observation, const std::optional<ShapePose>& start,
@@ -412,7 +412,8 @@ PointSet points_of(const ShapePrior& prior, const ShapeFit& fit) {
   std::vector<Vec3> points;
   const auto& t = fit.pose;
   for (const Vec3& p : own.points) {
-    points.push_back({t[0] * p.x + t[1] * p.y + t[2] * p.z + t[3], t[4] * p.x + t[5] * p.y + t[6] * p.z + t[7],
+    points.push_back({t[0] * p.x + t[1] * p.y + t[2] * p.z + t[3],
+                      t[4] * p.x + t[5] * p.y + t[6] * p.z + t[7],
                       t[8] * p.x + t[9] * p.y + t[10] * p.z + t[11]});
   }
   PointSet result;

@@ -28,9 +28,9 @@ struct ShapeFitOptions {
 ///
 /// Every point of the observation comes from a Gaussian around a surface point of the shape, or, as an
 /// outlier, from anywhere (Myronenko and Song 2010); scores are standard normal beforehand. By turns the
-/// probabilities of all pairs are taken, then scores and pose together from one least squares system, in which
-/// points are drawn to tangent planes rather than to points, so that they may slide; then the width and the
-/// part of outliers. Where the observation has normals, pairs with other directions are less probable.
+/// probabilities of all pairs are taken, then scores and pose together from one least squares system, in
+/// which points are drawn to tangent planes rather than to points, so that they may slide; then the width and
+/// the part of outliers. Where the observation has normals, pairs with other directions are less probable.
 /// Parts of the shape that nobody has seen are not drawn anywhere.
 ///
 /// Points of one surface do not err independently: N of them tell as much as `effective` independent ones, so
@@ -42,8 +42,9 @@ struct ShapeFitOptions {
 /// - Throws InputError for a model without surface points, and for fewer than 4 points.
 /// - Warns where the observation is far from the model: most of it unexplained, a residual far above that of
 ///   unknown instances, scores beyond those of instances.
-ShapeFit shape_fit(const ShapePrior& prior, const PointSet& observation, const std::optional<ShapePose>& start,
-                   const ShapeFitOptions& options = {}, Monitor& monitor = no_monitor());
+ShapeFit shape_fit(const ShapePrior& prior, const PointSet& observation,
+                   const std::optional<ShapePose>& start, const ShapeFitOptions& options = {},
+                   Monitor& monitor = no_monitor());
 
 /// The same for balls on a part of the shape, whose centers come from Gaussians around the centers of the
 /// model's balls; logarithms of radii are observed as lengths in the metric of the model. Balls below a

@@ -23,28 +23,34 @@ struct ShapeFit {
   ShapeFitOptions options;
 
   static void declare(NodeDecl<ShapeFit>& d) {
-    d.id("ShapeFit", 1).summary("The most plausible whole shape of a model for an observation of a part of it.");
+    d.id("ShapeFit", 1)
+        .summary("The most plausible whole shape of a model for an observation of a part of it.");
     d.doc(
         "Scores and pose of the model given points on the surface, or balls, of a part: posterior mean and "
         "covariance. Every point comes from a Gaussian around a part of the shape or, as an outlier, from "
         "anywhere; parts that nobody has seen are drawn nowhere. Points of one surface do not err "
-        "independently, so all of them count as `effective` independent ones. Says how far the observation is "
+        "independently, so all of them count as `effective` independent ones. Says how far the observation "
+        "is "
         "from the model: its distance from the shape against that of unknown instances from models without "
         "them, how much of it no part explains, how unusual the scores are; each is a warning where it is "
         "large. Refuses fewer than 4 points, and an observation that lies nowhere near the model.");
     d.avoid_when(
-        "the observation shows all of the shape: Match keeps what the model does not know; and where the mean "
+        "the observation shows all of the shape: Match keeps what the model does not know; and where the "
+        "mean "
         "alone is wanted (modes = 1 comes near it, ShapeInstance without scores is it).");
     d.cites("myronenko2010", "points as a mixture of Gaussians around a shape");
     d.cites("cootes1995", "shapes by their scores").cites("kornberger2010", "6.3.1");
     d.memory(std::uint64_t{32} << 20, 8);
     d.input("prior", &ShapeFit::prior).doc("mean and modes");
-    d.input("points", &ShapeFit::points).optional().doc("on a part of the surface; normals are used where given");
+    d.input("points", &ShapeFit::points)
+        .optional()
+        .doc("on a part of the surface; normals are used where given");
     d.input("balls", &ShapeFit::balls).optional().doc("of a part of the shape, where there are no points");
     d.input("pose", &ShapeFit::pose)
         .optional()
         .doc(
-            "from the observation to the coordinates of the model, about 10 degrees right; else it lies there "
+            "from the observation to the coordinates of the model, about 10 degrees right; else it lies "
+            "there "
             "already");
     d.output("fit", &ShapeFit::fit).doc("scores with covariance, pose, distances");
     d.output("balls", &ShapeFit::fitted).doc("the fitted shape, in the coordinates of the observation");
@@ -79,8 +85,9 @@ struct ShapeFit {
   }
   void run(RunContext& context) {
     if (static_cast<bool>(points) == static_cast<bool>(balls)) {
-      throw geometry::InputError(points ? "points and balls are connected" : "neither points nor balls are connected",
-                                 "connect the one or the other: what has been observed");
+      throw geometry::InputError(
+          points ? "points and balls are connected" : "neither points nor balls are connected",
+          "connect the one or the other: what has been observed");
     }
     ContextMonitor monitor(context);
     const std::optional<geometry::ShapePose> start =

@@ -30,14 +30,16 @@ std::vector<double> parse_scores(std::string_view text) {
   const char* const hint = "write standard deviations with commas between them: 2,-1";
   std::string_view rest = trimmed(text);
   if (rest.starts_with('[')) {
-    if (!rest.ends_with(']')) throw InputError("modes \"" + std::string(text) + "\" is a list without an end", hint);
+    if (!rest.ends_with(']'))
+      throw InputError("modes \"" + std::string(text) + "\" is a list without an end", hint);
     rest = trimmed(rest.substr(1, rest.size() - 2));
   }
   std::vector<double> scores;
   while (!rest.empty()) {
     const std::size_t comma = rest.find(',');
     std::string_view entry = trimmed(rest.substr(0, comma));
-    if (entry.size() > 1 && entry.front() == '"' && entry.back() == '"') entry = entry.substr(1, entry.size() - 2);
+    if (entry.size() > 1 && entry.front() == '"' && entry.back() == '"')
+      entry = entry.substr(1, entry.size() - 2);
     double value = 0;
     const auto [end, error] = std::from_chars(entry.data(), entry.data() + entry.size(), value);
     const bool last = comma == std::string_view::npos;

@@ -20,8 +20,10 @@ struct ShapeInstance {
   static void declare(NodeDecl<ShapeInstance>& d) {
     d.id("ShapeInstance", 1).summary("An instance of a model of a shape, as balls and as surface points.");
     d.doc(
-        "The mean plus so many standard deviations of each mode; radii by their logarithms, so that they stay "
-        "positive. 0 is the mean, between -2 and 2 lie most instances; beyond 3 in a mode is an extrapolation, "
+        "The mean plus so many standard deviations of each mode; radii by their logarithms, so that they "
+        "stay "
+        "positive. 0 is the mean, between -2 and 2 lie most instances; beyond 3 in a mode is an "
+        "extrapolation, "
         "and a warning says so. Refuses more scores than modes.");
     d.avoid_when("the shape is to go through given points or balls: ShapeFit finds the scores.");
     d.cites("cootes1995", "a shape from its parameters");
@@ -30,7 +32,8 @@ struct ShapeInstance {
     d.output("balls", &ShapeInstance::balls).doc("k balls, in the coordinates of the model");
     d.output("points", &ShapeInstance::points).doc("m points on the surface, without normals");
     d.param("modes", &ShapeInstance::modes)
-        .doc("standard deviations of the first modes, 2,-1 or a JSON list; the others are 0; empty: the mean");
+        .doc(
+            "standard deviations of the first modes, 2,-1 or a JSON list; the others are 0; empty: the mean");
   }
   void run(RunContext& context) {
     const std::vector<double> scores = geometry::parse_scores(modes);

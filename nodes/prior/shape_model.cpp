@@ -26,8 +26,7 @@ double mean_size(const Eigen::VectorXd& weights, const LabelledPoints& points) {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (Eigen::Index i = 0; i < points.cols(); ++i) middle += weights[i] * points.col(i);
   double sum = 0;
-  for (Eigen::Index i = 0; i < points.cols(); ++i)
-    sum += weights[i] * (points.col(i) - middle).squaredNorm();
+  for (Eigen::Index i = 0; i < points.cols(); ++i) sum += weights[i] * (points.col(i) - middle).squaredNorm();
   return sum;
 }
 

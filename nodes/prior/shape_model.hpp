@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "prior/linear_model.hpp"
 #include "prior/generalized_procrustes.hpp"
+#include "prior/linear_model.hpp"
 #include "types/matched_balls.hpp"
 
 namespace ballflow::geometry {
@@ -13,18 +13,18 @@ namespace ballflow::geometry {
 struct ShapeModelOptions {
   bool scale = false;        // instances are scaled to one size, and differ in shape alone
   double radius_weight = 1;  // how much logarithms of radii count, in mean radii
-  double point_share = 1;    // of the surface points in the metric, from 0 to 1; the rest is that of the balls
-  double along = 0.03;       // weight of what moves points along the surface
-  int modes = 1000;          // at most
+  double point_share = 1;  // of the surface points in the metric, from 0 to 1; the rest is that of the balls
+  double along = 0.03;     // weight of what moves points along the surface
+  int modes = 1000;        // at most
 };
 
-/// An instance in its own coordinates. Its vector has 3 k coordinates of centers, k logarithms of radii, and 3
-/// m coordinates of surface points.
+/// An instance in its own coordinates. Its vector has 3 k coordinates of centers, k logarithms of radii, and
+/// 3 m coordinates of surface points.
 struct LabelledShape {
-  LabelledPoints centers;       // k
-  Eigen::VectorXd log_radii;    // k
-  LabelledPoints points;        // m
-  LabelledPoints normals;       // m
+  LabelledPoints centers;     // k
+  Eigen::VectorXd log_radii;  // k
+  LabelledPoints points;      // m
+  LabelledPoints normals;     // m
 
   Eigen::Index balls() const { return log_radii.size(); }
 };
@@ -35,9 +35,9 @@ LabelledShape transformed(const Superposition& pose, const LabelledShape& shape)
 /// The inner product of displacements of all balls and points: a mean square, in squared model units.
 struct ShapeMetric {
   double per_ball = 0, per_point = 0;  // weights
-  double radius_unit = 0;  // a logarithm of a radius counts as a length of so much, model units
-  double along = 1;        // weight of what moves points along the surface
-  LabelledPoints normals;  // of the points, of length 1
+  double radius_unit = 0;              // a logarithm of a radius counts as a length of so much, model units
+  double along = 1;                    // weight of what moves points along the surface
+  LabelledPoints normals;              // of the points, of length 1
 
   /// A linear function, whose squared length is the square in the metric.
   Eigen::VectorXd features(const Eigen::VectorXd& displacement) const;
@@ -46,7 +46,7 @@ struct ShapeMetric {
 struct ShapeModel {
   LinearModel linear;
   ShapeMetric metric;
-  Eigen::VectorXd weights;     // of the centers and the points in superpositions
+  Eigen::VectorXd weights;  // of the centers and the points in superpositions
   Eigen::Index balls = 0, points = 0;
   bool scale = false;
   std::vector<Superposition> poses;  // of the instances, to the coordinates of the model

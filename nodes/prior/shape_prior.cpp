@@ -14,8 +14,8 @@
 namespace ballflow::geometry {
 namespace {
 
-constexpr double same_shape = 1e-9;   // of the size: rounding
-constexpr double far_away = 3;        // times what is usual
+constexpr double same_shape = 1e-9;  // of the size: rounding
+constexpr double far_away = 3;       // times what is usual
 constexpr double clearly_better = 0.5;
 
 std::string name_of(std::size_t instance, std::size_t count) {
@@ -47,9 +47,9 @@ std::vector<std::size_t> canonical_order(std::span<const MatchedBalls> instances
 void refuse(std::span<const MatchedBalls> instances, std::span<const TriangleMesh> meshes) {
   const std::size_t n = instances.size();
   if (n < 2) {
-    throw InputError(std::to_string(n) + (n == 1 ? " instance" : " instances") +
-                         " do not tell how a shape varies",
-                     "give two instances at least, better ten: each adds one mode");
+    throw InputError(
+        std::to_string(n) + (n == 1 ? " instance" : " instances") + " do not tell how a shape varies",
+        "give two instances at least, better ten: each adds one mode");
   }
   if (!meshes.empty() && meshes.size() != n) {
     throw InputError(std::to_string(meshes.size()) + " meshes for " + std::to_string(n) + " instances",
@@ -119,7 +119,8 @@ void look_at_instances(std::span<const LabelledShape> instances, const ShapeMode
     double residual = 0;
     for (Eigen::Index ball = 0; ball < model.balls; ++ball)
       residual += weights[ball] * (laid.col(ball) - mean.centers.col(ball)).squaredNorm();
-    if (mirrored_residual(shape.centers, mean.centers, weights) < clearly_better * clearly_better * residual) {
+    if (mirrored_residual(shape.centers, mean.centers, weights) <
+        clearly_better * clearly_better * residual) {
       monitor.warn(name_of(given[i], n) +
                    " is more like the others as its mirror image: a left one among right ones? Mirror it, or "
                    "allow reflections when it is aligned");
@@ -155,8 +156,7 @@ void keep_modes(const ShapeModel& model, ShapePrior& prior) {
     for (Eigen::Index i = 0; i < k; ++i)
       modes.push_back({column[3 * i], column[3 * i + 1], column[3 * i + 2], column[3 * k + i]});
     for (Eigen::Index i = 0; i < m; ++i)
-      point_modes.push_back(
-          {column[4 * k + 3 * i], column[4 * k + 3 * i + 1], column[4 * k + 3 * i + 2]});
+      point_modes.push_back({column[4 * k + 3 * i], column[4 * k + 3 * i + 1], column[4 * k + 3 * i + 2]});
     variances.push_back(model.linear.variances[mode]);
   }
   prior.modes = std::move(modes);

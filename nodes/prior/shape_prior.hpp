@@ -12,20 +12,22 @@
 namespace ballflow::geometry {
 
 struct ShapePriorOptions {
-  bool scale = false;         // instances are scaled to one size, and differ in shape alone
-  double radius_weight = 1;   // how much logarithms of radii count, in mean radii
-  double point_share = 1;     // of the surface points in the metric, from 0 to 1; the rest is the balls'
-  double along = 0.03;        // weight of what moves points along the surface, against what moves them off it
-  std::int64_t modes = 0;     // at most; 0: as many as there are
-  std::int64_t draws = 200;   // random shapes for the specificity; 0: neither that nor the generalization
+  bool scale = false;        // instances are scaled to one size, and differ in shape alone
+  double radius_weight = 1;  // how much logarithms of radii count, in mean radii
+  double point_share = 1;    // of the surface points in the metric, from 0 to 1; the rest is the balls'
+  double along = 0.03;       // weight of what moves points along the surface, against what moves them off it
+  std::int64_t modes = 0;    // at most; 0: as many as there are
+  std::int64_t draws = 200;  // random shapes for the specificity; 0: neither that nor the generalization
 };
 
-/// A point distribution model (Cootes et al. 1995) of instances that were matched to one template: generalized
-/// Procrustes analysis of their balls and surface points, then principal components of the vectors of (x, y,
-/// z, w log r) of balls and (x, y, z) of points; see ShapePrior for the metric, shape_model.hpp for how.
+/// A point distribution model (Cootes et al. 1995) of instances that were matched to one template:
+/// generalized Procrustes analysis of their balls and surface points, then principal components of the
+/// vectors of (x, y, z, w log r) of balls and (x, y, z) of points; see ShapePrior for the metric,
+/// shape_model.hpp for how.
 ///
-/// Evaluation (Davies 2002, Cates et al. 2007): generalization leaves out one instance after the other, learns
-/// from the rest, and measures the mean distance of the surface points of the nearest model with 0, 1, ..., n
+/// Evaluation (Davies 2002, Cates et al. 2007): generalization leaves out one instance after the other,
+/// learns from the rest, and measures the mean distance of the surface points of the nearest model with 0, 1,
+/// ..., n
 /// - 2 modes from the instance's surface: its mesh where there are `meshes`, else the tangent planes of its
 /// nearest surface points; without points its balls' centers, label by label. Specificity is the mean
 /// distance, label by label, of random shapes with standard normal scores from the nearest instance.

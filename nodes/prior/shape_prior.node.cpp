@@ -20,7 +20,8 @@ struct ShapePrior {
 
   static void declare(NodeDecl<ShapePrior>& d) {
     d.id("ShapePrior", 1)
-        .summary("Learns how a shape varies from several instances of it: mean, modes, and how good they are.");
+        .summary(
+            "Learns how a shape varies from several instances of it: mean, modes, and how good they are.");
     d.doc(
         "Superimposes all instances on their mean (generalized Procrustes analysis, no instance is "
         "privileged) and takes the principal components of balls and surface points. The metric is a mean "
@@ -38,7 +39,8 @@ struct ShapePrior {
     d.cites("kornberger2010", "6.3.1").cites("cootes1995", "point distribution models");
     d.cites("gower1975", "superposition on the mean").cites("davies2002", "generalization and specificity");
     d.memory(std::uint64_t{16} << 20, 8);
-    d.input("instances", &ShapePrior::instances).doc("matched to one template, as many balls and points each");
+    d.input("instances", &ShapePrior::instances)
+        .doc("matched to one template, as many balls and points each");
     d.input("meshes", &ShapePrior::meshes)
         .optional()
         .doc(

@@ -1,6 +1,6 @@
 // Models from formulae: smooth and sharp, of known genus, made of + - * / and square roots alone (of these is
-// the exponential, too), so that every machine makes the same bytes. torusBalls, 3cross, doubleTorus, knot and sTube stand for the models of
-// the same names in Kornberger 2010, which were never published.
+// the exponential, too), so that every machine makes the same bytes. torusBalls, 3cross, doubleTorus, knot
+// and sTube stand for the models of the same names in Kornberger 2010, which were never published.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,19 @@
 
 namespace ballflow::geometry {
 
-enum class Shape { sphere, torus, double_torus, torus_balls, cross, knot, s_tube, box, bracket, frame, bump_box };
+enum class Shape {
+  sphere,
+  torus,
+  double_torus,
+  torus_balls,
+  cross,
+  knot,
+  s_tube,
+  box,
+  bracket,
+  frame,
+  bump_box
+};
 
 struct ShapeOptions {
   Shape shape = Shape::torus;

@@ -13,11 +13,11 @@
 
 using namespace ballflow::geometry;
 
-BALLFLOW_PLUGIN(
-    "types", "0.1.0", ballflow::node_entries<>(),
-    (ballflow::type_entries<
-        BallCounts, BallDistance, Balls, Bisection, Comparison, CoverCheck, CoverState, DiscOutline,
-        Enclosure, EnclosureFit, Growth, LocalFeatureSize, MassProperties, MatchedBalls, MedialAxis,
-        MeshReport, MinkowskiReport, NoiseReport, OutlineComparison, Path, PointSet, PoleSet, Polygon2,
-        PowerDiagram, Refinement, Robot, RobotSpheres, SampleAssignment, ShapeFit, ShapePose, ShapePrior, SimplicialComplex,
-        SurfaceBallsReport, SurfaceReport, TopologyCheck, TopologyTable, TriangleMesh, Way>()))
+BALLFLOW_PLUGIN("types", "0.1.0", ballflow::node_entries<>(),
+                (ballflow::type_entries<
+                    BallCounts, BallDistance, Balls, Bisection, Comparison, CoverCheck, CoverState,
+                    DiscOutline, Enclosure, EnclosureFit, Growth, LocalFeatureSize, MassProperties,
+                    MatchedBalls, MedialAxis, MeshReport, MinkowskiReport, NoiseReport, OutlineComparison,
+                    Path, PointSet, PoleSet, Polygon2, PowerDiagram, Refinement, Robot, RobotSpheres,
+                    SampleAssignment, ShapeFit, ShapePose, ShapePrior, SimplicialComplex, SurfaceBallsReport,
+                    SurfaceReport, TopologyCheck, TopologyTable, TriangleMesh, Way>()))

@@ -16,7 +16,8 @@ std::string broken_invariant(const ShapeFit& fit) {
         return "the covariance of scores " + std::to_string(i) + " and " + std::to_string(j) +
                " is not finite, or not symmetric";
     }
-    if (!(fit.covariance[i * q + i] >= 0)) return "the variance of score " + std::to_string(i) + " is negative";
+    if (!(fit.covariance[i * q + i] >= 0))
+      return "the variance of score " + std::to_string(i) + " is negative";
   }
   for (std::size_t i = 0; i < k; ++i) {
     if (!is_finite(fit.centers[i])) return "the center of ball " + std::to_string(i) + " is not finite";

@@ -22,9 +22,10 @@ enum class SurfaceMeasure : std::uint8_t {
 /// deviations: center i is centers[i] + sum_j b[j] (x, y, z of modes[j k + i]), its radius is radii[i]
 /// exp(sum_j b[j] * fourth number of modes[j k + i]), point i is points[i] + sum_j b[j] point_modes[j m + i].
 ///
-/// The metric of vectors is a mean squared displacement, squared model units: (1 - point_share) times the mean
-/// over the balls of dx^2 + dy^2 + dz^2 + (radius_unit * d log r)^2, plus point_share times the mean over the
-/// points of the squared displacement along the normal plus `along` times the square of the rest of it.
+/// The metric of vectors is a mean squared displacement, squared model units: (1 - point_share) times the
+/// mean over the balls of dx^2 + dy^2 + dz^2 + (radius_unit * d log r)^2, plus point_share times the mean
+/// over the points of the squared displacement along the normal plus `along` times the square of the rest of
+/// it.
 struct ShapePrior {
   Array<Vec3> centers;  // k x 3, of the mean, model units
   Array<double> radii;  // k, above 0: geometric means
@@ -32,8 +33,8 @@ struct ShapePrior {
   Array<Vec3> normals;  // m x 3, of length 1, outwards
   double point_share = 0, radius_unit = 0, along = 1;
 
-  // q modes, those of largest variance first. Signs: of the scores of a mode the one of largest absolute value
-  // is positive.
+  // q modes, those of largest variance first. Signs: of the scores of a mode the one of largest absolute
+  // value is positive.
   Array<std::array<double, 4>> modes;  // q k: x, y, z, log r that one standard deviation adds
   Array<Vec3> point_modes;             // q m
   Array<double> variances;             // q, descending, in the metric
@@ -42,11 +43,11 @@ struct ShapePrior {
   // The n instances, in the order in which they were given.
   Array<double> scores;  // n q, row by row, in standard deviations
   Array<std::array<double, 12>>
-      poses;  // n: 3 x 4 by rows, from the coordinates of an instance to those of the model
+      poses;                // n: 3 x 4 by rows, from the coordinates of an instance to those of the model
   Array<double> distances;  // n: of the instance from the mean, root of the metric
 
   // How good the model is; model units. Distances with j modes, j = 0 (the mean shape), 1, ...
-  Array<double> generalization;            // g: of an instance from the model of the others, mean over instances
+  Array<double> generalization;  // g: of an instance from the model of the others, mean over instances
   Array<double> generalization_deviation;  // g: standard deviation over instances
   Array<double> specificity;               // q: of random shapes with j + 1 modes from the nearest instance
   Array<double> specificity_deviation;     // q

@@ -26,9 +26,7 @@ void TypeOf<geometry::ShapePrior>::declare(TypeDecl<geometry::ShapePrior>& d) {
   d.array("variances", &T::variances).length("q").optional().doc("descending, squared model units");
   d.scalar("total_variance", &T::total_variance).doc("of all modes, also those that are not kept");
   d.array("scores", &T::scores).length("nq").optional().doc("instance by instance, standard deviations");
-  d.array("poses", &T::poses)
-      .length("n")
-      .doc("3 x 4 by rows: from an instance's coordinates to the model's");
+  d.array("poses", &T::poses).length("n").doc("3 x 4 by rows: from an instance's coordinates to the model's");
   d.array("distances", &T::distances).length("n").doc("of the instances from the mean, model units");
   d.array("generalization", &T::generalization)
       .length("g")

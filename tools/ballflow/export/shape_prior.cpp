@@ -1,5 +1,5 @@
-// ShapePrior: itself, so that it can be given to other graphs, the scores of its instances (csv), and the balls
-// of its mean. ShapeFit: its summary, and the fitted balls.
+// ShapePrior: itself, so that it can be given to other graphs, the scores of its instances (csv), and the
+// balls of its mean. ShapeFit: its summary, and the fitted balls.
 #include "types/shape_prior.hpp"
 
 #include <string>

@@ -54,14 +54,13 @@ std::string model_plots(const nlohmann::json& report) {
   for (const auto& [name, output] : outputs.items()) {
     if (member(output, "type") != "ShapePrior") continue;
     const Value& summary = member(output, "summary");
-    out += drawn("Compactness (" + name + "): part of the variance in the first modes", "part",
-                 1, member(summary, "compactness"), Value());
+    out += drawn("Compactness (" + name + "): part of the variance in the first modes", "part", 1,
+                 member(summary, "compactness"), Value());
     out += drawn("Generalization (" + name + "): distance of an instance from the model of the others",
                  "model units", 0, member(summary, "generalization"),
                  member(summary, "generalization_deviation"));
     out += drawn("Specificity (" + name + "): distance of random shapes from the nearest instance",
-                 "model units", 1, member(summary, "specificity"),
-                 member(summary, "specificity_deviation"));
+                 "model units", 1, member(summary, "specificity"), member(summary, "specificity_deviation"));
   }
   return out;
 }

@@ -7,8 +7,8 @@
 namespace ballflow::report {
 
 /// SVG pictures one after the other for every output of type ShapePrior in a report: part of the variance in
-/// the first modes, generalization and specificity, each with a standard deviation below it. Empty where there
-/// is none.
+/// the first modes, generalization and specificity, each with a standard deviation below it. Empty where
+/// there is none.
 std::string model_plots(const nlohmann::json& report);
 
 }  // namespace ballflow::report

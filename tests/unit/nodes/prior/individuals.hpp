@@ -22,7 +22,8 @@ inline std::int64_t from_environment(const char* name, std::int64_t usual) {
 }
 
 struct Individual {
-  Individual(TriangleMesh surface, std::int64_t sample_count, std::int64_t point_count, std::uint64_t seed = 1)
+  Individual(TriangleMesh surface, std::int64_t sample_count, std::int64_t point_count,
+             std::uint64_t seed = 1)
       : mesh(std::move(surface)), samples(samples_of(mesh, sample_count, seed)) {
     inner = label_poles(voronoi_poles(samples_of(mesh, point_count, seed + 1), {}), mesh, {}).inner;
   }

@@ -1,5 +1,5 @@
-// Families of shapes that differ in known numbers, in random poses, from their meshes to the scores of a model:
-// BALLFLOW_TEST_INSTANCES of each (30 at night).
+// Families of shapes that differ in known numbers, in random poses, from their meshes to the scores of a
+// model: BALLFLOW_TEST_INSTANCES of each (30 at night).
 #include <gtest/gtest.h>
 
 #include <array>

@@ -37,8 +37,8 @@ std::string json(const Array<std::array<double, N>>& rows) {
   return text + "]";
 }
 
-// Superposition by turns from another start and in another order of steps, principal components by the singular
-// values of the whole matrix; SciPy lays the first two instances on each other.
+// Superposition by turns from another start and in another order of steps, principal components by the
+// singular values of the whole matrix; SciPy lays the first two instances on each other.
 constexpr const char* script = R"(
 import json, sys
 import numpy as np
@@ -110,8 +110,7 @@ TEST(oracle, procrustes_analysis_and_modes_are_those_of_numpy_and_scipy) {
     // Something that no two modes explain.
     for (MatchedBalls& member : known.members) {
       std::vector<Vec3> centers(member.centers.begin(), member.centers.end());
-      for (Vec3& c : centers)
-        c = c + 0.05 * Vec3{random.unit(), random.unit(), random.unit()};
+      for (Vec3& c : centers) c = c + 0.05 * Vec3{random.unit(), random.unit(), random.unit()};
       member.centers = std::move(centers);
     }
     ShapePriorOptions options;
@@ -120,15 +119,15 @@ TEST(oracle, procrustes_analysis_and_modes_are_those_of_numpy_and_scipy) {
     options.along = 1;
     options.draws = 0;
     const ShapePrior prior = shape_prior(known.members, {}, options);
-    std::string text = "{\"scale\":" + std::string(one.scale ? "true" : "false") + ",\"share\":" +
-                       number(one.share) + ",\"unit\":" + number(prior.radius_unit) + ",\"variances\":" +
-                       json(prior.variances) + ",\"scores\":" + json(prior.scores) + ",\"centers\":" +
-                       json(prior.centers) + ",\"radii\":" + json(prior.radii) + ",\"poses\":" +
-                       json(prior.poses) + ",\"instances\":[";
+    std::string text = "{\"scale\":" + std::string(one.scale ? "true" : "false") +
+                       ",\"share\":" + number(one.share) + ",\"unit\":" + number(prior.radius_unit) +
+                       ",\"variances\":" + json(prior.variances) + ",\"scores\":" + json(prior.scores) +
+                       ",\"centers\":" + json(prior.centers) + ",\"radii\":" + json(prior.radii) +
+                       ",\"poses\":" + json(prior.poses) + ",\"instances\":[";
     for (std::size_t i = 0; i < known.members.size(); ++i) {
       const MatchedBalls& member = known.members[i];
-      text += std::string(i == 0 ? "" : ",") + "{\"centers\":" + json(member.centers) + ",\"radii\":" +
-              json(member.radii) + ",\"points\":" + json(member.points) + "}";
+      text += std::string(i == 0 ? "" : ",") + "{\"centers\":" + json(member.centers) +
+              ",\"radii\":" + json(member.radii) + ",\"points\":" + json(member.points) + "}";
     }
     test::write_file(folder.file("case.json"), text + "]}");
     const std::string command =

@@ -15,8 +15,8 @@ inline bool says(const Warnings& warnings, const std::string& words) {
   return warnings.text.find(words) != std::string::npos;
 }
 
-/// k balls in, and m points on, an ellipsoid of about 3 x 2 x 1. `length` stretches it along x, `growth` makes
-/// its balls larger and its surface with them along z: two modes that are linear in these numbers.
+/// k balls in, and m points on, an ellipsoid of about 3 x 2 x 1. `length` stretches it along x, `growth`
+/// makes its balls larger and its surface with them along z: two modes that are linear in these numbers.
 inline MatchedBalls family_member(double length, double growth, std::size_t k = 30, std::size_t m = 120) {
   Random random(7);
   std::vector<Vec3> centers, points, normals;

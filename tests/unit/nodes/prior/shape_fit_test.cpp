@@ -37,9 +37,10 @@ Seen seen(const std::vector<double>& scores, double from, std::uint64_t seed = 2
   // A small turn: the tangent half angle form of a rotation.
   const double a = 0.05 * (random.unit() - 0.5), b = 0.08 * (random.unit() - 0.5), c = 0.08 * random.unit();
   const double n = 1 + a * a + b * b + c * c;
-  result.truth.rotation = {(1 + a * a - b * b - c * c) / n, 2 * (a * b - c) / n,           2 * (a * c + b) / n,
-                           2 * (a * b + c) / n,             (1 - a * a + b * b - c * c) / n, 2 * (b * c - a) / n,
-                           2 * (a * c - b) / n,             2 * (b * c + a) / n, (1 - a * a - b * b + c * c) / n};
+  result.truth.rotation = {
+      (1 + a * a - b * b - c * c) / n, 2 * (a * b - c) / n, 2 * (a * c + b) / n, 2 * (a * b + c) / n,
+      (1 - a * a + b * b - c * c) / n, 2 * (b * c - a) / n, 2 * (a * c - b) / n, 2 * (b * c + a) / n,
+      (1 - a * a - b * b + c * c) / n};
   result.truth.translation = {0.1, -0.1, 0.05};
   const ShapePrior& prior = model();
   const PointSet all = instance_points(prior, scores);
@@ -63,7 +64,8 @@ Seen seen(const std::vector<double>& scores, double from, std::uint64_t seed = 2
   }
   result.points.points = std::move(points);
   result.points.normals = std::move(normals);
-  for (const Vec3& p : shape_instance(prior, scores).centers) result.centers.push_back(transformed(result.truth, p));
+  for (const Vec3& p : shape_instance(prior, scores).centers)
+    result.centers.push_back(transformed(result.truth, p));
   return result;
 }
 
@@ -133,7 +135,8 @@ TEST(shape_fit, outliers_draw_the_shape_nowhere) {
   const Box box = bounding_box(part.points.points.span());
   const Vec3 size = box.upper - box.lower;
   for (std::size_t i = points.size() / 4; i > 0; --i) {
-    points.push_back(box.lower + Vec3{random.unit() * size.x, random.unit() * size.y, random.unit() * size.z});
+    points.push_back(box.lower +
+                     Vec3{random.unit() * size.x, random.unit() * size.y, random.unit() * size.z});
     normals.push_back(turned(random_pose(random), {1, 0, 0}));
   }
   noisy.points.points = std::move(points);
@@ -200,7 +203,8 @@ TEST(shape_fit, tells_of_observations_that_are_no_instances) {
     const Vec3 middle = 0.5 * (box.lower + box.upper);
     Random random(5);
     for (int i = 0; i < 300; ++i)
-      points.push_back(middle + Vec3{4 * (random.unit() - 0.5), 4 * (random.unit() - 0.5), 4 * (random.unit() - 0.5)});
+      points.push_back(middle +
+                       Vec3{4 * (random.unit() - 0.5), 4 * (random.unit() - 0.5), 4 * (random.unit() - 0.5)});
     cross.points = std::move(points);
     Warnings warnings;
     shape_fit(model(), cross, {}, {}, warnings);

@@ -32,10 +32,10 @@ TEST(shape_instance, is_the_mean_plus_standard_deviations) {
   }
   const PointSet points = instance_points(prior, scores);
   ASSERT_EQ(points.points.size(), prior.points.size());
-  EXPECT_NEAR(points.points[5].z,
-              prior.points[5].z + 1.5 * prior.point_modes[5].z -
-                  0.5 * prior.point_modes[prior.points.size() + 5].z,
-              1e-12);
+  EXPECT_NEAR(
+      points.points[5].z,
+      prior.points[5].z + 1.5 * prior.point_modes[5].z - 0.5 * prior.point_modes[prior.points.size() + 5].z,
+      1e-12);
 }
 
 TEST(shape_instance, refuses_more_scores_than_modes_and_what_leaves_the_numbers) {

@@ -101,7 +101,8 @@ TEST(shape_prior, variances_are_mean_squared_displacements_in_the_metric) {
     double balls = 0, points = 0;
     for (std::size_t b = 0; b < member.size(); ++b) {
       const double growth = prior.radius_unit * std::log(member.radii[b] / prior.radii[b]);
-      balls += squared_distance(applied(prior.poses[i], member.centers[b]), prior.centers[b]) + growth * growth;
+      balls +=
+          squared_distance(applied(prior.poses[i], member.centers[b]), prior.centers[b]) + growth * growth;
     }
     for (std::size_t j = 0; j < member.points.size(); ++j) {
       const Vec3 moved_by = applied(prior.poses[i], member.points[j]) - prior.points[j];
@@ -199,8 +200,9 @@ TEST(shape_prior, refuses_what_is_no_family) {
   };
   EXPECT_NE(message({known.members[0]}, {}).find("1 instance do"), std::string::npos);
   EXPECT_NE(message({known.members[0], known.members[0]}, {}).find("all the same shape"), std::string::npos);
-  EXPECT_NE(message({known.members[0], family_member(0, 0, 29)}, {}).find("instance 1 (of 0 to 1) has 29 balls"),
-            std::string::npos);
+  EXPECT_NE(
+      message({known.members[0], family_member(0, 0, 29)}, {}).find("instance 1 (of 0 to 1) has 29 balls"),
+      std::string::npos);
   EXPECT_NE(message(known.members, {TriangleMesh{}}).find("1 meshes for 3 instances"), std::string::npos);
 }
 

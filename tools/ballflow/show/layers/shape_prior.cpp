@@ -1,6 +1,6 @@
-// ShapePrior: the balls of the mean, coloured by how much they vary, with a slider for each of the first modes;
-// its surface points, which stay, and what a standard deviation of a mode does to the centers, as segments.
-// ShapeFit: the fitted balls, coloured by how uncertain they are.
+// ShapePrior: the balls of the mean, coloured by how much they vary, with a slider for each of the first
+// modes; its surface points, which stay, and what a standard deviation of a mode does to the centers, as
+// segments. ShapeFit: the fitted balls, coloured by how uncertain they are.
 #include "types/shape_prior.hpp"
 
 #include <algorithm>
