@@ -17,6 +17,17 @@ namespace {
 constexpr std::size_t points_of_pairs = 300, quantiles = 64;
 // So many shapes are laid on each other, all pairs of them: a few seconds.
 constexpr std::size_t most_candidates = 24;
+constexpr double equal_residual = 1e-6;  // by the radius: rounding of coordinates, say in a file of floats
+
+/// For one of several tasks that run side by side: how far each has come is not what is shown.
+class Quiet final : public Monitor {
+ public:
+  explicit Quiet(Monitor& whole) : whole_(whole) {}
+  bool cancelled() override { return whole_.cancelled(); }
+
+ private:
+  Monitor& whole_;
+};
 
 /// Of each row the sum, added up by size: so the order of the shapes does not matter.
 std::vector<double> sums_of(std::vector<std::vector<double>> rows) {
@@ -96,10 +107,16 @@ std::size_t choose_template(std::span<const PointSet> shapes, const ChooseTempla
   aligning.similarity = true;
   for_each_block(pairs.size(), 1, monitor, 0.2, 1, [&](std::size_t, std::size_t at, std::size_t) {
     const auto [a, b] = pairs[at];
-    PartMonitor quiet(monitor, 0.2, 0.2);
+    Quiet quiet(monitor);
     const double r = rough_residual(shapes[candidates[b]], shapes[candidates[a]], aligning, quiet);
     residuals[a][b] = residuals[b][a] = r;
   });
+  for (const auto& [a, b] : pairs) {
+    if (residuals[a][b] < equal_residual)
+      monitor.warn("instances " + std::to_string(std::min(candidates[a], candidates[b])) + " and " +
+                   std::to_string(std::max(candidates[a], candidates[b])) +
+                   " are the same shape, counted twice");
+  }
   const std::vector<double> sums = sums_of(residuals);
   return candidates[static_cast<std::size_t>(std::min_element(sums.begin(), sums.end()) - sums.begin())];
 }

@@ -24,8 +24,8 @@ std::vector<double> distance_quantiles(std::span<const Vec3> points, Monitor& mo
 /// residuals; of equal ones the first. Of more than two dozen shapes those whose quantiles are the most usual
 /// are looked at. Or the one that is asked for. The order of the shapes does not matter but for equal sums.
 ///
-/// Throws InputError for no shapes, an index that is none, and a shape with fewer than 4 points or all at one
-/// place.
+/// Warns of shapes that are equal but for pose and size. Throws InputError for no shapes, an index that is
+/// none, and a shape with fewer than 4 points or all at one place.
 std::size_t choose_template(std::span<const PointSet> shapes, const ChooseTemplateOptions& options,
                             Monitor& monitor = no_monitor());
 

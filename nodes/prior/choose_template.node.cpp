@@ -26,7 +26,8 @@ struct ChooseTemplate {
         "of pairs "
         "of points are spread most usually. As long as the same shape is taken, whatever is made of it stays "
         "in the "
-        "cache when shapes are added. Refuses lists that are not equally long, and shapes without extent.");
+        "cache when shapes are added. Warns of shapes that are there twice. Refuses lists that are not "
+        "equally long, and shapes without extent.");
     d.avoid_when("one shape is known to be the best: the parameter instance.");
     d.cites("osada2002", "D2: distances of pairs of points")
         .cites("gonzalez1985", "points that are evenly chosen");

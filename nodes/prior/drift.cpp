@@ -15,7 +15,7 @@ namespace {
 constexpr double kernel_tolerance = 1e-5;  // remainder of the kernel beside its diagonal, 1
 constexpr double negligible = 36;          // e^-36: what is less than this of a weight of 1 is none
 constexpr double least_deviation = 1e-4;   // equal shapes come as near as this
-constexpr std::size_t targets_per_block = 64;
+constexpr std::size_t fewest_targets = 64, most_blocks = 64;  // every block has sums for all points
 
 /// What the targets tell of every point of the template.
 struct Expectation {
@@ -27,7 +27,7 @@ struct Expectation {
 };
 
 void expect(const DriftGroup& group, std::span<const Vec3> points, double variance,
-            const DriftOptions& options, Monitor& monitor, Expectation& sum) {
+            const DriftOptions& options, Monitor& monitor, double done, Expectation& sum) {
   const std::size_t n = group.count, m = group.targets.size();
   if (n == 0 || m == 0) return;
   const bool normals = !group.normals.empty() && !group.target_normals.empty();
@@ -35,38 +35,37 @@ void expect(const DriftGroup& group, std::span<const Vec3> points, double varian
   const double noise = two_pi_variance * std::sqrt(two_pi_variance) * options.outliers /
                        (1 - options.outliers) * static_cast<double>(n) / static_cast<double>(m);
   const double by_distance = 1 / (2 * variance), by_normal = 1 / (options.normals * options.normals);
-  std::vector<Expectation> parts(blocks_of(m, targets_per_block), Expectation(0));
-  for_each_block(m, targets_per_block, monitor, 0, 0,
-                 [&](std::size_t b, std::size_t first, std::size_t last) {
-                   Expectation part(n);
-                   std::vector<std::pair<std::size_t, double>> near;
-                   for (std::size_t j = first; j < last; ++j) {
-                     const Vec3 x = group.targets[j];
-                     near.clear();
-                     double total = noise;
-                     for (std::size_t i = 0; i < n; ++i) {
-                       double exponent = by_distance * squared_distance(points[group.first + i], x);
-                       if (exponent > negligible) continue;
-                       if (normals) {
-                         exponent += by_normal * (1 - dot(group.normals[i], group.target_normals[j]));
-                         if (exponent > negligible) continue;
-                       }
-                       const double p = exponential(-exponent);
-                       total += p;
-                       near.emplace_back(i, p);
-                     }
-                     if (!(total > 0)) continue;
-                     for (const auto& [i, weight] : near) {
-                       const double p = weight / total;
-                       part.weight[i] += p;
-                       part.target[i] = part.target[i] + p * x;
-                       if (!group.target_normals.empty())
-                         part.normal[i] = part.normal[i] + p * group.target_normals[j];
-                       part.squares += p * squared_distance(points[group.first + i], x);
-                     }
-                   }
-                   parts[b] = std::move(part);
-                 });
+  const std::size_t block = std::max(fewest_targets, blocks_of(m, most_blocks));
+  std::vector<Expectation> parts(blocks_of(m, block), Expectation(0));
+  for_each_block(m, block, monitor, done, done, [&](std::size_t b, std::size_t first, std::size_t last) {
+    Expectation part(n);
+    std::vector<std::pair<std::size_t, double>> near;
+    for (std::size_t j = first; j < last; ++j) {
+      const Vec3 x = group.targets[j];
+      near.clear();
+      double total = noise;
+      for (std::size_t i = 0; i < n; ++i) {
+        double exponent = by_distance * squared_distance(points[group.first + i], x);
+        if (exponent > negligible) continue;
+        if (normals) {
+          exponent += by_normal * (1 - dot(group.normals[i], group.target_normals[j]));
+          if (exponent > negligible) continue;
+        }
+        const double p = exponential(-exponent);
+        total += p;
+        near.emplace_back(i, p);
+      }
+      if (!(total > 0)) continue;
+      for (const auto& [i, weight] : near) {
+        const double p = weight / total;
+        part.weight[i] += p;
+        part.target[i] = part.target[i] + p * x;
+        if (!group.target_normals.empty()) part.normal[i] = part.normal[i] + p * group.target_normals[j];
+        part.squares += p * squared_distance(points[group.first + i], x);
+      }
+    }
+    parts[b] = std::move(part);
+  });
   for (const Expectation& part : parts) {
     sum.squares += part.squares;
     for (std::size_t i = 0; i < n; ++i) {
@@ -183,9 +182,10 @@ Drift drift(std::span<const Vec3> points, std::span<const DriftGroup> groups, co
   double variance = options.start * options.start;
   Expectation e(points.size());
   for (; result.steps < options.most_steps; ++result.steps) {
-    monitor.step(static_cast<double>(result.steps) / options.most_steps);
+    const double done = static_cast<double>(result.steps) / options.most_steps;
+    monitor.step(done);
     e = Expectation(points.size());
-    for (const DriftGroup& group : groups) expect(group, result.points, variance, options, monitor, e);
+    for (const DriftGroup& group : groups) expect(group, result.points, variance, options, monitor, done, e);
     double weight = 0;
     for (const double w : e.weight) weight += w;
     if (!(weight > 0)) break;  // nothing is near anything

@@ -194,7 +194,8 @@ MatchedBalls match(const Balls& balls, const PointSet& points, const PointSet& s
   const auto to_instance = [&](Vec3 p) { return transformed(back, frame.radius * p + frame.mean); };
   MatchedBalls result;
   const Cloud cloud(samples.points, {}, samples.points.size(), monitor);
-  const SampledSurface shell(samples, cloud, monitor);
+  PartMonitor rest(monitor, 0.9, 1);
+  const SampledSurface shell(samples, cloud, rest);
   std::vector<Vec3> moved, normals;
   std::vector<double> point_residuals;
   for (std::size_t j = 0; j < m; ++j) {

@@ -93,6 +93,19 @@ TEST(choose_template, takes_the_one_in_the_middle_in_any_order_and_pose) {
   EXPECT_EQ(choose_template(shapes, {.instance = 3}), 3u);
 }
 
+TEST(choose_template, warns_of_a_shape_that_is_there_twice) {
+  Random random(5);
+  std::vector<PointSet> shapes;
+  for (const double r : {0.1, 0.2, 0.3})
+    shapes.push_back(samples_of(generate({Shape::bracket, 2000, 1, r}), 100, 3));
+  Warnings none, twice;
+  choose_template(shapes, {}, none);
+  EXPECT_EQ(none.text, "");
+  shapes.push_back(moved(shapes[1], random_pose(random, 3)));
+  choose_template(shapes, {}, twice);
+  EXPECT_NE(twice.text.find("instances 1 and 3 are the same shape"), std::string::npos) << twice.text;
+}
+
 TEST(choose_template, refuses_what_has_no_middle) {
   const PointSet good = samples_of(generate({Shape::bracket, 2000}), 50, 3);
   EXPECT_THROW(choose_template({}, {}), InputError);
