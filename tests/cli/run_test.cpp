@@ -151,6 +151,29 @@ TEST_F(CliTest, changing_one_side_of_a_minkowski_sum_leaves_the_other_in_the_cac
   EXPECT_GT(runs, 5);
 }
 
+TEST_F(CliTest, one_more_shape_to_match_computes_what_is_its_own_and_nothing_of_the_others) {
+  const auto match = [&](const std::string& shapes) {
+    return ballflow({"run", test::source_file("graphs/shape_match.json"), "--set", "instances=" + shapes,
+                     "--set", "template=0", "--set", "points=400", "--set", "samples=80", "--set", "balls=10",
+                     "--report", folder.file("report.json")});
+  };
+  const std::string two = "shape:bracket?n=1500&r=0.2,shape:bracket?n=1500&r=0.25";
+  ASSERT_EQ(match(two).exit_code, 0);
+  ASSERT_EQ(match(two + ",shape:bracket?n=1500&r=0.28").exit_code, 0);
+  int own = 0, others = 0;
+  for (const auto& [path, status] : statuses(report())) {
+    if (status == "skipped" || path == "choose") continue;  // the choice looks at all shapes
+    const bool is_new = path.find("r_0.28") != std::string::npos;
+    if (!is_new) {
+      EXPECT_EQ(status, "hit") << path;
+    }
+    if (is_new && status == "run") ++own;
+    others += is_new ? 0 : 1;
+  }
+  EXPECT_GE(own, 7);  // read, points, poles, label, surface, align, match; in both maps, each is run once
+  EXPECT_GT(others, 15);
+}
+
 TEST_F(CliTest, plan_and_check_say_what_a_run_would_do) {
   const std::string graph = test::source_file("graphs/medial_axis.json");
   const std::vector<std::string> plan_it = {
