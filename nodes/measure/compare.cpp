@@ -8,6 +8,7 @@
 
 #include "measure/blocks.hpp"
 #include "measure/boundary_samples.hpp"
+#include "measure/one_sided.hpp"
 #include "measure/surface_samples.hpp"
 #include "measure/union_measure.hpp"
 #include "power/alpha_shape.hpp"
@@ -17,68 +18,7 @@
 namespace ballflow::geometry {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t block = 128;  // samples in one task
-
-/// Largest and weighted mean values, summed in a fixed order.
-struct Tally {
-  double at_least = 0, value = 0, at_most = 0;  // the largest distance of a sample, and bounds of it
-  double outside = 0, weight = 0, sum = 0, covered = 0;
-
-  void add(const Tally& more) {
-    at_least = std::max(at_least, more.at_least);
-    value = std::max(value, more.value);
-    at_most = std::max(at_most, more.at_most);
-    outside = std::max(outside, more.outside);
-    weight += more.weight;
-    sum += more.sum;
-    covered += more.covered;
-  }
-  double mean() const { return weight > 0 ? sum / weight : value; }
-};
-
-Tally merged(const std::vector<Tally>& parts) {
-  Tally all;
-  for (const Tally& part : parts) all.add(part);
-  return all;
-}
-
-/// From the samples of the surface to the boundary of the union.
-Tally from_surface(const ComparedSurface& surface, const BallUnion& all, const BoxTree& boundary,
-                   const std::vector<Vec3>& on_boundary, double spacing, double tolerance, Monitor& monitor) {
-  const auto of_sample = [&](Vec3 p, double area) {
-    const double depth = all.depth(p);
-    Tally tally{std::abs(depth), depth, depth, std::max(depth, 0.0), area, 0, depth <= tolerance ? area : 0};
-    if (depth < 0) {
-      // The ball in which p is deepest has no boundary of the union in it; where there is a sample little
-      // farther than that the boundary is taken to be there. Near the centre of a ball all samples on it are
-      // about as near, and searching for the nearest would take as long as looking at all.
-      const double near = -depth + spacing / 16;
-      const double nearest =
-          boundary.smallest(p, infinity, near, [&](std::size_t k) { return distance(p, on_boundary[k]); });
-      tally.value = nearest < near ? -depth : nearest;
-      tally.at_most = std::max(nearest, near);
-    }
-    tally.sum = area * tally.value;
-    return tally;
-  };
-  return merged(by_blocks<Tally>(surface.samples(), block, monitor, [&](auto first, auto last, Tally& tally) {
-    surface.for_samples(first, last, [&](Vec3 p, double area) { tally.add(of_sample(p, area)); });
-  }));
-}
-
-/// From the samples of the boundary of the union to the surface.
-Tally from_union(const BoundarySamples& boundary, const ComparedSurface& surface, bool has_area,
-                 Monitor& monitor) {
-  return merged(by_blocks<Tally>(boundary.size(), block, monitor, [&](auto first, auto last, Tally& tally) {
-    for (std::size_t k = first; k < last; ++k) {
-      const double d = surface.distance_to(boundary.positions[k]);
-      const bool on = boundary.on_boundary[k] != 0;
-      const double area = !on ? 0 : has_area ? boundary.areas[k] : 1;
-      tally.add({on ? d : 0, on ? d : 0, d, 0, area, area * d, 0});
-    }
-  }));
-}
+constexpr std::size_t block = 128;  // balls in one task
 
 double protrusion(const Balls& balls, const ComparedSurface& surface, Monitor& monitor) {
   double largest = 0;
@@ -148,14 +88,7 @@ Comparison compare(const Balls& balls, const PointSet& points, const TriangleMes
   const Tally of_union = from_union(boundary, surface, has_area, back);
   result.surface_samples = static_cast<std::int64_t>(surface.samples());
   result.union_samples = static_cast<std::int64_t>(boundary.size());
-  result.surface_to_union = {of_surface.at_least, of_surface.value,
-                             of_surface.at_most + (surface.is_cloud() ? 0 : result.spacing),
-                             of_surface.mean()};
-  result.union_to_surface = {of_union.at_least, of_union.value, of_union.at_most + result.spacing,
-                             of_union.mean()};
-  result.coverage = of_surface.weight > 0 ? std::min(1.0, of_surface.covered / of_surface.weight)
-                                          : (of_surface.outside > tolerance ? 0.0 : 1.0);
-  result.uncovered = of_surface.outside > tolerance ? of_surface.outside : 0;
+  put_distances(result, of_surface, of_union, surface.is_cloud(), tolerance);
   result.protrusion = protrusion(balls, surface, beyond);
 
   PartMonitor measuring(monitor, 0.75, 1);

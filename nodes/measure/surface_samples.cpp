@@ -15,17 +15,6 @@ double segment_distance(Vec3 p, Vec3 a, Vec3 b) {
   return distance(p, a + t * ab);
 }
 
-/// Degenerate triangles are their edges.
-double triangle_distance(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
-  const Vec3 normal = cross(b - a, c - a);
-  const double squared = squared_length(normal);
-  const auto left_of = [&](Vec3 from, Vec3 to) { return dot(cross(to - from, p - from), normal) >= 0; };
-  if (squared > 0 && left_of(a, b) && left_of(b, c) && left_of(c, a)) {
-    return std::abs(dot(p - a, normal)) / std::sqrt(squared);
-  }
-  return std::min({segment_distance(p, a, b), segment_distance(p, b, c), segment_distance(p, c, a)});
-}
-
 /// How many parts an edge is split in, as a double: there may be too many for an integer.
 double parts_of_edge(const std::array<Vec3, 3>& corners, double spacing) {
   const auto& [a, b, c] = corners;
@@ -35,6 +24,16 @@ double parts_of_edge(const std::array<Vec3, 3>& corners, double spacing) {
 }
 
 }  // namespace
+
+double triangle_distance(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
+  const Vec3 normal = cross(b - a, c - a);
+  const double squared = squared_length(normal);
+  const auto left_of = [&](Vec3 from, Vec3 to) { return dot(cross(to - from, p - from), normal) >= 0; };
+  if (squared > 0 && left_of(a, b) && left_of(b, c) && left_of(c, a)) {
+    return std::abs(dot(p - a, normal)) / std::sqrt(squared);
+  }
+  return std::min({segment_distance(p, a, b), segment_distance(p, b, c), segment_distance(p, c, a)});
+}
 
 ComparedSurface::ComparedSurface(const PointSet& points, const TriangleMesh& mesh)
     : points_(points.points), mesh_(mesh) {

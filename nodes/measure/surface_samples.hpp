@@ -14,6 +14,9 @@
 
 namespace ballflow::geometry {
 
+/// The distance of p to a triangle. Degenerate triangles are their edges.
+double triangle_distance(Vec3 p, Vec3 a, Vec3 b, Vec3 c);
+
 /// Triangles, or points where there are none. A triangle is split in k x k equal parts, the smallest k for
 /// which none of its points is farther than the spacing from the centroid of a part; each centroid is a
 /// sample and stands for the area of its part. Points are samples themselves, of area 1 each.
@@ -27,6 +30,14 @@ class ComparedSurface {
 
   /// The distance to the nearest point of the surface: the same bits whatever the order of the triangles.
   double distance_to(Vec3 p) const;
+
+  /// Calls visit(corners) for the triangles that may be nearer to p than `limit`; points have equal corners.
+  template <class Visit>
+  void near(Vec3 p, double limit, const Visit& visit) const {
+    tree_.below(p, limit, [&](std::size_t i) {
+      visit(is_cloud() ? std::array<Vec3, 3>{points_[i], points_[i], points_[i]} : triangle(i));
+    });
+  }
 
   /// Decides on the samples, and spends them. Once.
   void sample(double spacing, Budget& budget);

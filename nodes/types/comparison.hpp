@@ -41,9 +41,11 @@ struct Comparison {
   double coverage = 0;                // part of the area of M that is in U, in [0, 1]
   double uncovered = 0;               // largest d(x, U) of the samples x of M; 0 when all are in U
   // The largest r - d(c, M) of a ball, at least 0: no ball with its centre c inside reaches farther beyond M.
+  // Of ellipsoids the length by which half-axes have to be shortened for that (compare_ellipsoids.hpp).
   double protrusion = 0;
 
-  double union_volume = 0;  // by formulas: right but for rounding, whatever the spacing
+  double union_volume = 0;  // by formulas: right but for rounding, whatever the spacing; of ellipsoids
+                            // along lines, to about 1e-4
   // Enclosed by M: the integral of its winding number, with its components turned outwards but for cavities,
   // as LabelPoles turns them. What M winds around twice counts twice.
   double surface_volume = 0;

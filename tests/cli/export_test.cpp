@@ -35,6 +35,7 @@ struct ExportTest : testing::Test {
                                     : graph == "path"             ? "robot=shape:sphere?n=400&R=0.1"
                                     : graph == "shape_prior"      ? "balls=20"
                                     : graph == "shape_fit"        ? "prior=" + prior
+                                    : graph == "ellipsoids"       ? "delta=4"
                                                                   : "input=shape:torus?n=1500"});
     const ProcessResult result = ballflow(run);
     EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -80,7 +81,7 @@ TEST_F(ExportTest, every_type_of_a_run_is_exported_to_the_last_bit_in_every_form
   std::size_t files = 0;
   for (const char* graph :
        {"dmt", "medial_axis", "growth", "local_feature_size", "seed_polytope", "check_spheres", "discs",
-        "ball_distance", "sweep_along_path", "path", "shape_prior", "shape_fit"}) {
+        "ball_distance", "sweep_along_path", "path", "shape_prior", "shape_fit", "ellipsoids"}) {
     for (const auto& [name, output] : outputs(graph)) {
       const auto& [type, digest] = output;
       const std::vector<std::string> all =

@@ -81,6 +81,10 @@ TEST_P(EveryGraph, runs_on_a_generated_model_with_equal_digests_for_any_number_o
     settings = {{"input", "shape:bumpBox?n=1500&r=0.65"}, {"extent", "whole"}, {"samples", "300"}};
   if (GetParam() == "shape_prior") settings = {{"points", "1000"}, {"samples", "300"}};
   if (GetParam() == "shape_complete") settings.push_back({"model.points", "1000"});
+  // Comparing takes most of the time, and looks at as many things with fewer samples.
+  if (GetParam() == "ellipsoids" || GetParam() == "k_ellipsoids")
+    settings.insert(settings.end(), {{"spacing", "5"}, {"delta", "2"}});
+  if (GetParam() == "ellipsoids") settings.push_back({"epsilon", "2"});
   const Dag dag = load_graph(file, registry(), settings, {}, given);
   EXPECT_FALSE(dag.doc.empty());
   const auto results = run_with_threads(dag, {1, 2, 4});

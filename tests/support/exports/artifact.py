@@ -58,6 +58,7 @@ class Artifact:
             arrays[name] = rows(values, shape[1]) if len(shape) == 2 else list(values)
         self.arrays = arrays
         self.point_numbers = None
+        self.columns = []  # (name, doubles of the points)
         self.coloured = False
         self.normals = self.radii = self.point_codes = self.face_codes = self.face_numbers = None
         self.points, self.edges, self.faces = [], [], []
@@ -84,6 +85,29 @@ class Artifact:
 
     def read_Balls(self, a):
         self.points, self.radii = a["centers"], a["radii"]
+
+    def read_Ellipsoids(self, a):
+        self.points = a["centers"]
+        self.columns = [(f"radius_{k}", [r[k] for r in a["radii"]]) for k in range(3)]
+        self.columns += [(f"rot_{k}", [q[k] for q in a["rotations"]]) for k in range(4)]
+
+    def on_unit_sphere(self, i, p):
+        """Where a point of the surface of ellipsoid i is on the sphere, by the matrix of its quaternion."""
+        w, x, y, z = self.arrays["rotations"][i]
+        columns = ((1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)),
+                   (2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)),
+                   (2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)))
+        d = [u - v for u, v in zip(p, self.points[i])]
+        return [sum(u * v for u, v in zip(column, d)) / r for column, r in zip(columns, self.arrays["radii"][i])]
+
+    def check_surfaces(self, triangles, slack):
+        """Triangles as three points each: as many of every ellipsoid, with corners on it."""
+        same(len(triangles), 320 * len(self.points), "number of triangles")
+        for i in range(len(self.points)):
+            for triangle in triangles[320 * i:320 * (i + 1):40]:
+                for p in triangle:
+                    norm = math.hypot(*self.on_unit_sphere(i, p))
+                    require(abs(norm - 1) < slack, f"a corner off ellipsoid {i} by {norm - 1}")
 
     def read_Polygon2(self, a):
         vertices, ends, parts = a["vertices"], a["ring_offsets"], a["component_offsets"]
@@ -238,7 +262,7 @@ class Artifact:
     read_CoverCheck = read_Comparison = read_Bisection = read_CoverState
     read_TopologyTable = read_TopologyCheck = read_Refinement = read_CoverState
     read_MassProperties = read_SurfaceBallsReport = read_CoverState
-    read_NoiseReport = read_MinkowskiReport = read_ShapePose = read_CoverState
+    read_NoiseReport = read_MinkowskiReport = read_ShapePose = read_Scaling = read_CoverState
 
     def balls(self):
         return [(*p, r) for p, r in zip(self.points, self.radii)]
@@ -252,6 +276,9 @@ class Artifact:
         if self.radii is not None:
             names.append("radius")
             columns.append(self.radii)
+        for name, values in self.columns:
+            names.append(name)
+            columns.append(values)
         if self.point_codes:
             names.append(self.point_codes[0])
             columns.append(self.point_codes[1])

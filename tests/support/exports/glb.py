@@ -146,6 +146,10 @@ def check_glb(data, artifact):
             attributes, triangles, _ = glb.primitive(child)
             if not balls:
                 check_sphere(attributes, triangles)
+            if artifact.type == "Ellipsoids":
+                x, y, z, w = child["rotation"]
+                balls.append((*child["translation"], *child["scale"], w, x, y, z))
+                continue
             same(len(set(child["scale"])), 1, "scale")
             balls.append((*child["translation"], child["scale"][0]))
         if children:
@@ -171,6 +175,9 @@ def check_glb(data, artifact):
         dots = [i for i in dots if artifact.point_codes[1][i] != 2]
     if artifact.type in ("Balls", "Growth") and len(artifact.points) <= MOST_BALL_NODES:
         same(balls, artifact.balls(), "balls")
+        dots = []
+    if artifact.type == "Ellipsoids":
+        same(balls, artifact.table()[1], "ellipsoids")
         dots = []
     triangles = fans(artifact.faces)
     for width, expected in ((1, [(v,) for v in dots]), (2, artifact.edges), (3, triangles)):

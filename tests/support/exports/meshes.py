@@ -61,6 +61,9 @@ def check_obj(data, artifact):
     for line in data.decode("ascii").splitlines():
         if not line.startswith("#"):
             elements[line[0]].append(floats(line[1:]))
+    if artifact.type == "Ellipsoids":
+        corners = [[elements["v"][int(v) - 1] for v in face] for face in elements["f"]]
+        return artifact.check_surfaces(corners, 1e-9)
     same(elements["v"], artifact.points, "vertices")
     for kind, expected in (("f", artifact.faces), ("l", artifact.edges)):
         same([tuple(int(v) - 1 for v in e) for e in elements[kind]], expected, kind)
@@ -75,8 +78,12 @@ def check_off(data, artifact):
 
 
 def check_stl(data, artifact):
-    triangles = fans(artifact.faces)
     require(not data.startswith(b"solid"), "looks like an ASCII file")
+    if artifact.type == "Ellipsoids":
+        found = [rows(struct.unpack_from("<12fH", data, 84 + 50 * i)[3:12], 3) for i in range((len(data) - 84) // 50)]
+        thin = min(min(r) for r in artifact.arrays["radii"])
+        return artifact.check_surfaces(found, 1e-6 * max(max(map(abs, p)) for p in artifact.points) / thin + 1e-6)
+    triangles = fans(artifact.faces)
     same(len(data), 84 + 50 * len(triangles), "bytes")
     same(struct.unpack_from("<I", data, 80)[0], len(triangles), "count")
     for i, triangle in enumerate(triangles):
@@ -111,6 +118,8 @@ def check_vtp(data, artifact):
         expected["PointData", "Normals"] = artifact.normals
     if artifact.radii is not None:
         expected["PointData", "radius"] = artifact.radii
+    for name, values in artifact.columns:
+        expected["PointData", name] = values
     if artifact.point_codes:
         expected["PointData", artifact.point_codes[0]] = artifact.point_codes[1]
     if artifact.point_numbers:

@@ -57,10 +57,12 @@ def check_npy(data, artifact):
     size, = struct.unpack_from("<H", data, 8)
     header = data[10:10 + size].decode("ascii")
     require((10 + size) % 64 == 0 and header.endswith("\n"), "the header is not aligned")
-    found = re.fullmatch(r"\{'descr': '<f8', 'fortran_order': False, 'shape': \((\d+), (\d)\), \} *\n", header)
+    found = re.fullmatch(r"\{'descr': '<f8', 'fortran_order': False, 'shape': \((\d+), (\d+)\), \} *\n", header)
     require(found, header)
     expected = artifact.balls() if artifact.radii is not None else artifact.points
     width = 4 if artifact.radii is not None else 3
+    if artifact.columns:
+        expected, width = artifact.table()[1], 3 + len(artifact.columns)
     same((int(found[1]), int(found[2])), (len(expected), width), "shape")
     values = struct.unpack(f"<{len(expected) * width}d", data[10 + size:])
     same(rows(values, width), expected, "values")

@@ -31,7 +31,8 @@ const std::vector<TypeFormats>& table() {
                                                  matched_balls_formats(),
                                                  way_formats(),
                                                  shape_prior_formats(),
-                                                 shape_fit_formats()};
+                                                 shape_fit_formats(),
+                                                 ellipsoids_formats()};
   return types;
 }
 

@@ -4,6 +4,7 @@
 //   PointSet           ply xyz csv off vtp npy glb
 //   TriangleMesh       ply obj off stl vtp glb
 //   Balls              ply csv obj vtp npy glb ma sph yaml urdf svg   svg: as seen from above
+//   Ellipsoids         ply csv obj stl vtp npy glb   obj and stl: triangles
 //   PoleSet            ply csv vtp npy glb           label: 0 unlabelled, 1 inner, 2 outer
 //   LocalFeatureSize   csv ply vtp npy glb           radius: D^, the distance to the nearest pole
 //   Growth             csv ply vtp npy glb           grown balls; stop: 0 wish, 1 poles, 2 Gabriel, 3 common

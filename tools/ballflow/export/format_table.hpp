@@ -53,6 +53,7 @@ TypeFormats matched_balls_formats();
 TypeFormats way_formats();
 TypeFormats shape_prior_formats();
 TypeFormats shape_fit_formats();
+TypeFormats ellipsoids_formats();
 
 /// What every type can be written as.
 std::vector<Format> generic_formats();

@@ -10,8 +10,8 @@
 
 namespace ballflow {
 
-/// PLY, binary, doubles. Points with normals (nx, ny, nz), radius, code and number; faces with code and
-/// colour; edges (vertex1, vertex2).
+/// PLY, binary, doubles. Points with normals (nx, ny, nz), radius, columns, code and number; faces with code
+/// and colour; edges (vertex1, vertex2).
 void write_ply(const PolyData& data, OutputFile& out);
 
 /// Wavefront OBJ: points, polygons, edges as lines.
@@ -25,15 +25,15 @@ void write_off(const PolyData& data, OutputFile& out);
 void write_stl(const PolyData& data, OutputFile& out);
 
 /// A point a line: x y z, then its normal where there are any. xyz has blanks between the numbers; csv has
-/// commas, a line of names first, and also radii (r), codes and numbers.
+/// commas, a line of names first, and also radii (r), columns, codes and numbers.
 void write_xyz(const PolyData& data, OutputFile& out);
 void write_csv(const PolyData& data, OutputFile& out);
 
-/// NumPy: an n x 3 array of the points, n x 4 with their radii.
+/// NumPy: an n x 3 array of the points, n x 4 with their radii, and columns after that.
 void write_npy(const PolyData& data, OutputFile& out);
 
-/// VTK XML PolyData for ParaView, raw appended data: points, normals, radius, code and number as point data;
-/// dots, edges and polygons with their code as cell data.
+/// VTK XML PolyData for ParaView, raw appended data: points, normals, radius, columns, code and number as
+/// point data; dots, edges and polygons with their code as cell data.
 void write_vtp(const PolyData& data, OutputFile& out);
 
 /// Medial axis transform as Q-MAT, MATFP and MATTopo read it: the numbers of points, edges and triangles,
@@ -64,7 +64,8 @@ void write_poly2d(const geometry::Polygon2& polygon, OutputFile& out);
 
 /// glTF 2.0 binary: the layers of the artifact that the viewer shows at first, in the same colours; floats.
 /// Up to 20 000 balls are nodes with one sphere as their mesh (translation is the centre, scale the radius);
-/// more are points with the attribute _RADIUS. Throws Error (usage) when a number does not fit a float.
+/// more are points with the attribute _RADIUS. Ellipsoids are nodes likewise: their rotation is that of the
+/// ellipsoid, their scale its half-axes. Throws Error (usage) when a number does not fit a float.
 void write_glb(const Artifact& artifact, OutputFile& out);
 
 }  // namespace ballflow

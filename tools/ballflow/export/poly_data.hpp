@@ -31,11 +31,18 @@ struct Numbers {
   geometry::Array<std::int32_t> values;
 };
 
+/// One double per point, with a name.
+struct Column {
+  std::string_view name;
+  std::vector<double> values;
+};
+
 struct PolyData {
   geometry::Array<geometry::Vec3> points;  // n x 3, model units
 
   geometry::Array<geometry::Vec3> normals;       // n x 3 or empty
   std::optional<geometry::Array<double>> radii;  // n
+  std::vector<Column> point_columns;             // each n; after the radii in every format
   Codes point_codes;                             // n where it has a name
   Numbers point_numbers;                         // n where it has a name
 

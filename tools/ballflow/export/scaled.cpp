@@ -19,11 +19,14 @@ struct Lengths {
 };
 
 const std::vector<Lengths>& lengths_of_types() {
-  static const std::vector<Lengths> types = {
-      {"Balls", {"centers", "radii"}},       {"Growth", {"centers", "radii", "grown_radii", "limits"}},
-      {"MedialAxis", {"vertices", "radii"}}, {"PointSet", {"points"}},
-      {"PoleSet", {"centers", "radii"}},     {"Polygon2", {"vertices"}},
-      {"TriangleMesh", {"vertices"}}};
+  static const std::vector<Lengths> types = {{"Balls", {"centers", "radii"}},
+                                             {"Ellipsoids", {"centers", "radii"}},
+                                             {"Growth", {"centers", "radii", "grown_radii", "limits"}},
+                                             {"MedialAxis", {"vertices", "radii"}},
+                                             {"PointSet", {"points"}},
+                                             {"PoleSet", {"centers", "radii"}},
+                                             {"Polygon2", {"vertices"}},
+                                             {"TriangleMesh", {"vertices"}}};
   return types;
 }
 

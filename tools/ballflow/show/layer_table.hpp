@@ -36,5 +36,6 @@ TypeLayers matched_balls_layers();
 TypeLayers way_layers();
 TypeLayers shape_prior_layers();
 TypeLayers shape_fit_layers();
+TypeLayers ellipsoids_layers();
 
 }  // namespace ballflow::show

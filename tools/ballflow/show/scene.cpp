@@ -31,7 +31,8 @@ const std::vector<TypeLayers>& table() {
                                                 matched_balls_layers(),
                                                 way_layers(),
                                                 shape_prior_layers(),
-                                                shape_fit_layers()};
+                                                shape_fit_layers(),
+                                                ellipsoids_layers()};
   return types;
 }
 

@@ -309,6 +309,15 @@ std::string describe(const OutputEntry& output) {
          if (s.at("solids_words").is_string()) text += "; " + s.at("solids_words").get<std::string>();
          return text;
        }},
+      {"Ellipsoids",
+       [](const Json& s) {
+         std::string text = counted(s, "count", "ellipsoid");
+         if (s.at("min_radius").is_number()) {
+           text += ", half-axes " + rounded(s, "min_radius") + " to " + rounded(s, "max_radius");
+         }
+         return text;
+       }},
+      {"Scaling", [](const Json& s) { return s.at("words").get<std::string>(); }},
       {"Way", [](const Json& s) { return s.at("words").get<std::string>(); }},
       {"Path",
        [](const Json& s) {

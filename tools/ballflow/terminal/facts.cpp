@@ -33,7 +33,23 @@ class Facts {
   }
   static Json summary(const OutputEntry& output) { return Json::parse(output.summary, nullptr, false); }
 
+  /// How many, out of which scaling, and how few there could be.
+  bool ellipsoids() {
+    const OutputEntry* const pieces = of_type("Ellipsoids");
+    if (pieces == nullptr) return false;
+    std::string words = describe(*pieces);
+    if (const OutputEntry* const cover = of_type("CoverState")) {
+      const Json s = summary(*cover);
+      if (s.contains("lower_bound") && s.at("lower_bound").is_number())
+        words += ", at least " + s.at("lower_bound").dump() + " needed";
+    }
+    facts_.push_back(words);
+    if (const OutputEntry* const scaling = of_type("Scaling")) facts_.push_back(describe(*scaling));
+    return true;
+  }
+
   void balls() {
+    if (ellipsoids()) return;
     if (const OutputEntry* const cover = of_type("CoverState")) {
       if (summary(*cover).value("chosen", 0) > 0) {
         facts_.push_back(describe(*cover));

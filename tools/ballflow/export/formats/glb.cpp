@@ -8,8 +8,12 @@
 
 #include "export/formats.hpp"
 #include "export/formats/gltf_buffer.hpp"
+#include "show/icosphere.hpp"
+#include "show/layers/ellipsoid_attribute.hpp"
 #include "show/palette.hpp"
 #include "show/scene.hpp"
+#include "show/typed.hpp"
+#include "types/ellipsoid_types.hpp"
 
 namespace ballflow {
 namespace {
@@ -25,60 +29,6 @@ constexpr std::size_t most_ball_nodes = 20000;
 constexpr std::size_t most_fine_balls = 2000;
 
 constexpr int points_mode = 0, lines_mode = 1, triangles_mode = 4;
-
-struct Sphere {
-  std::vector<Vec3> vertices;  // of length 1: their own normals
-  std::vector<std::uint32_t> triangles;
-};
-
-/// An icosahedron whose triangles are cut into four `rounds` times.
-Sphere icosphere(int rounds) {
-  const double golden = (1 + std::sqrt(5.0)) / 2;
-  Sphere sphere;
-  const auto add = [&sphere](Vec3 v) {
-    sphere.vertices.push_back((1 / geometry::length(v)) * v);
-    return static_cast<std::uint32_t>(sphere.vertices.size() - 1);
-  };
-  for (const double a : {-1.0, 1.0}) {
-    for (const double b : {-golden, golden}) {
-      add({0, a, b});
-      add({a, b, 0});
-      add({b, 0, a});
-    }
-  }
-  // Three vertices are a triangle when they are neighbours: at the distance of an edge, the shortest there
-  // is.
-  const double edge = 1.1;  // is 1.051, the next distance is 1.701
-  const auto near = [&sphere, edge](std::uint32_t a, std::uint32_t b) {
-    return geometry::distance(sphere.vertices[a], sphere.vertices[b]) < edge;
-  };
-  for (std::uint32_t a = 0; a < 12; ++a) {
-    for (std::uint32_t b = a + 1; b < 12; ++b) {
-      for (std::uint32_t c = b + 1; c < 12; ++c) {
-        if (!near(a, b) || !near(b, c) || !near(a, c)) continue;
-        const Vec3 p = sphere.vertices[a], q = sphere.vertices[b], r = sphere.vertices[c];
-        const bool outward = geometry::dot(geometry::cross(q - p, r - p), p) > 0;
-        sphere.triangles.insert(sphere.triangles.end(), {a, outward ? b : c, outward ? c : b});
-      }
-    }
-  }
-  for (; rounds > 0; --rounds) {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
-    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-      const auto [at, is_new] = middles.try_emplace(std::minmax(a, b), 0);
-      if (is_new) at->second = add(sphere.vertices[a] + sphere.vertices[b]);
-      return at->second;
-    };
-    std::vector<std::uint32_t> finer;
-    for (std::size_t i = 0; i < sphere.triangles.size(); i += 3) {
-      const std::uint32_t a = sphere.triangles[i], b = sphere.triangles[i + 1], c = sphere.triangles[i + 2];
-      const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-      finer.insert(finer.end(), {a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca});
-    }
-    sphere.triangles = std::move(finer);
-  }
-  return sphere;
-}
 
 /// sRGB to linear: ((c + 0.055) / 1.055)^2.4 above the dark end. The power is the fifth root of the twelfth
 /// one, by Newton's method, so that files do not depend on the machine's pow.
@@ -127,6 +77,18 @@ class Scene {
     } else {
       node["mesh"] = mesh(layer.name, primitive(layer));
     }
+    roots_.push_back(push(nodes_, std::move(node)));
+  }
+
+  /// `layer` has a vertex per ellipsoid, and its colour.
+  void add(const geometry::Ellipsoids& all, const Layer& layer) {
+    Json node = {{"name", layer.name}};
+    node["children"] = ball_nodes(layer, "ellipsoid", [&](std::size_t i) {
+      const Vec3 c = all.centers[i], r = all.radii[i];
+      const geometry::Quaternion q = all.rotations[i];
+      return Json{
+          {"translation", {c.x, c.y, c.z}}, {"rotation", {q.x, q.y, q.z, q.w}}, {"scale", {r.x, r.y, r.z}}};
+    });
     roots_.push_back(push(nodes_, std::move(node)));
   }
 
@@ -207,12 +169,16 @@ class Scene {
     return result;
   }
 
-  /// A node per ball; balls of one colour share a mesh, and all meshes share the vertices of one sphere.
-  Json ball_nodes(const Layer& layer) {
-    const Sphere sphere = icosphere(layer.elements() <= most_fine_balls ? 2 : 1);
+  /// A node per ball, with what `place` says of ball i; balls of one colour share a mesh, and all meshes
+  /// share the vertices of one sphere.
+  template <class Place>
+  Json ball_nodes(const Layer& layer, const char* name, const Place& place) {
+    const show::Icosphere sphere = show::icosphere(layer.vertices.size() <= most_fine_balls ? 2 : 1);
+    std::vector<std::uint32_t> corners;
+    for (const auto& t : sphere.triangles) corners.insert(corners.end(), t.begin(), t.end());
     const std::size_t positions = buffer_.positions(sphere.vertices),
                       normals = buffer_.normals(sphere.vertices);
-    const std::size_t indices = buffer_.indices(sphere.triangles);
+    const std::size_t indices = buffer_.indices(corners);
     const auto colours = vertex_colours(layer);
     std::map<std::string, std::size_t> mesh_of;
     Json children = Json::array();
@@ -220,16 +186,22 @@ class Scene {
       const Colour colour = colours ? (*colours)[i] : show::plain(layer);
       const auto [at, is_new] = mesh_of.try_emplace(show::hex(colour), 0);
       if (is_new) {
-        at->second = mesh("ball", {{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}},
-                                   {"indices", indices},
-                                   {"material", material(colour, layer.opacity)}});
+        at->second = mesh(name, {{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}},
+                                 {"indices", indices},
+                                 {"material", material(colour, layer.opacity)}});
       }
-      const Vec3 c = layer.vertices[i];
-      const double r = layer.radii[i];
-      children.push_back(
-          push(nodes_, {{"mesh", at->second}, {"translation", {c.x, c.y, c.z}}, {"scale", {r, r, r}}}));
+      Json node = place(i);
+      node["mesh"] = at->second;
+      children.push_back(push(nodes_, std::move(node)));
     }
     return children;
+  }
+  Json ball_nodes(const Layer& layer) {
+    return ball_nodes(layer, "ball", [&](std::size_t i) {
+      const Vec3 c = layer.vertices[i];
+      const double r = layer.radii[i];
+      return Json{{"translation", {c.x, c.y, c.z}}, {"scale", {r, r, r}}};
+    });
   }
 
   const std::vector<Layer>& layers_;
@@ -240,7 +212,30 @@ class Scene {
 
 }  // namespace
 
+namespace {
+
+/// As nodes, where there are not too many: the layer of ellipsoids has triangles.
+bool write_ellipsoids(const Artifact& artifact, OutputFile& out) {
+  if (artifact.type() != "Ellipsoids") return false;
+  const auto all = typed<geometry::Ellipsoids>(artifact);
+  if (all.size() == 0 || all.size() > most_ball_nodes) return false;
+  Layer layer;
+  layer.name = "ellipsoids";
+  layer.shape = Shape::points;
+  layer.vertices = all.centers;
+  layer.attributes = {show::shortest_axis_attribute(all)};
+  layer.colour_by = layer.attributes.front().name;
+  const std::vector<Layer> layers{layer};
+  Scene scene(layers);
+  scene.add(all, layer);
+  scene.write(out);
+  return true;
+}
+
+}  // namespace
+
 void write_glb(const Artifact& artifact, OutputFile& out) {
+  if (write_ellipsoids(artifact, out)) return;
   std::vector<Layer> layers = show::layers_of(artifact);
   std::erase_if(layers, [](const Layer& layer) { return !layer.visible; });
   Scene scene(layers);

@@ -32,6 +32,7 @@ void write_ply(const PolyData& data, OutputFile& out) {
     for (const char axis : {'x', 'y', 'z'}) out << "property double n" << axis << '\n';
   }
   if (data.radii) out << "property double radius\n";
+  for (const Column& column : data.point_columns) out << "property double " << column.name << '\n';
   code_property(out, data.point_codes);
   if (!data.point_numbers.name.empty()) out << "property int " << data.point_numbers.name << '\n';
   if (data.polygons() != 0) {
@@ -52,6 +53,7 @@ void write_ply(const PolyData& data, OutputFile& out) {
     raw_vector(out, data.points[i]);
     if (!data.normals.empty()) raw_vector(out, data.normals[i]);
     if (data.radii) out.raw((*data.radii)[i]);
+    for (const Column& column : data.point_columns) out.raw(column.values[i]);
     if (!data.point_codes.name.empty()) out.raw(data.point_codes.values[i]);
     if (!data.point_numbers.name.empty()) out.raw(data.point_numbers.values[i]);
   }

@@ -82,6 +82,11 @@ void write_vtp(const PolyData& data, OutputFile& out) {
   if (data.radii) {
     head.array("Float64", "radius", 1, data.radii->size() * sizeof(double), elements(*data.radii));
   }
+  for (const Column& column : data.point_columns) {
+    head.array("Float64", column.name, 1, column.values.size() * sizeof(double), [&column](OutputFile& to) {
+      to.write(column.values.data(), column.values.size() * sizeof(double));
+    });
+  }
   if (const auto& codes = data.point_codes; !codes.name.empty()) {
     head.array("UInt8", codes.name, 1, codes.values.size(), elements(codes.values));
   }
