@@ -14,11 +14,12 @@
 
 using namespace ballflow::geometry;
 
-BALLFLOW_PLUGIN("types", "0.1.0", ballflow::node_entries<>(),
-                (ballflow::type_entries<
-                    BallCounts, BallDistance, Balls, Bisection, Comparison, CoverCheck, CoverState,
-                    DiscOutline, Ellipsoids, Enclosure, EnclosureFit, Growth, LocalFeatureSize, MassProperties,
-                    MatchedBalls, MedialAxis, MeshReport, MinkowskiReport, NoiseReport, OutlineComparison,
-                    Path, PointSet, PoleSet, Polygon2, PowerDiagram, Refinement, Robot, RobotSpheres,
-                    SampleAssignment, Scaling, ShapeFit, ShapePose, ShapePrior, SimplicialComplex, SurfaceBallsReport,
-                    SurfaceReport, TopologyCheck, TopologyTable, TriangleMesh, Way>()))
+BALLFLOW_PLUGIN(
+    "types", "0.1.0", ballflow::node_entries<>(),
+    (ballflow::type_entries<BallCounts, BallDistance, Balls, Bisection, Comparison, CoverCheck, CoverState,
+                            DiscOutline, Ellipsoids, Enclosure, EnclosureFit, Growth, LocalFeatureSize,
+                            MassProperties, MatchedBalls, MedialAxis, MeshReport, MinkowskiReport,
+                            NoiseReport, OutlineComparison, Path, PointSet, PoleSet, Polygon2, PowerDiagram,
+                            Refinement, Robot, RobotSpheres, SampleAssignment, Scaling, ShapeFit, ShapePose,
+                            ShapePrior, SimplicialComplex, SurfaceBallsReport, SurfaceReport, TopologyCheck,
+                            TopologyTable, TriangleMesh, Way>()))
