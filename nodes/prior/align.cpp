@@ -23,6 +23,7 @@ constexpr double same_rotation = 5, same_rough_rotation = 15;
 constexpr double same_distance = 0.1, same_rough_distance = 0.2;  // and by the target's radius
 constexpr double exact_fit = 1e-4;                         // by the diagonal: residuals below this are one
 constexpr std::size_t most_optima = 4, most_mirrored = 2;  // distinct ones that go on with all points
+constexpr double smallest = 1e-100, largest = 1e100;       // sizes of shapes
 constexpr double hopeless = 2.5;  // times the best rough residual: no finer search would help
 constexpr double flat = 1e-6;     // thickness of a set of points by its size
 
@@ -145,6 +146,11 @@ void refuse_unusable(const PointSet& points, const char* which) {
                          " samples, an alignment needs 4 or more",
                      "sample its surface: Sample with mode surface");
   const PrincipalFrame frame = principal_frame(points.points);
+  if (frame.radius > 0 && !(frame.radius > smallest && frame.radius < largest))
+    throw InputError("the samples of " + std::string(which) +
+                         " are too large or too small: squares of their "
+                         "distances leave the range of numbers",
+                     "scale the model (Sample, scale)");
   if (!(frame.variances[0] > flat * flat * frame.radius * frame.radius))
     throw InputError(
         "all samples of " + std::string(which) + " lie in one plane: mirror images cannot be told",

@@ -87,7 +87,10 @@ TEST(align, refuses_what_cannot_be_aligned) {
   PointSet few, flat;
   few.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   flat.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0.5, 0.2, 0}};
-  for (const PointSet& bad : {PointSet{}, few, flat}) {
+  ShapePose blown_up, shrunk;
+  blown_up.scale = 1e120;
+  shrunk.scale = 1e-120;
+  for (const PointSet& bad : {PointSet{}, few, flat, moved(good, blown_up), moved(good, shrunk)}) {
     EXPECT_THROW(align(bad, good, {}), InputError);
     EXPECT_THROW(align(good, bad, {}), InputError);
   }

@@ -82,6 +82,25 @@ TEST(match, a_turned_copy_gives_its_own_balls_back) {
   EXPECT_NEAR(found.scale, 0.4, 1e-6);
 }
 
+TEST(match, a_mirror_image_is_matched_where_it_may_be) {
+  const Subject shape(handed_shape());
+  ShapePose mirror;
+  mirror.rotation[0] = -1;
+  mirror.mirrored = 1;
+  const Subject other = moved(shape, mirror);
+  const Balls wanted = every_kth(template_balls(shape.inner, shape.inner), 20);
+  const ShapePose pose = align(other.samples, shape.samples, {.reflections = Reflections::allow});
+  ASSERT_EQ(pose.mirrored, 1);
+  const MatchedBalls found = match(wanted, shape.samples, other.samples, other.inner, pose, {});
+  EXPECT_EQ(broken_invariant(found), "");
+  EXPECT_EQ(found.mirrored, 1);
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    EXPECT_LT(distance(found.centers[i], transformed(mirror, wanted.centers[i])), 1e-6);
+  // Normals stay outward.
+  for (std::size_t j = 0; j < shape.samples.points.size(); ++j)
+    EXPECT_GT(dot(found.normals[j], turned(mirror, shape.samples.normals[j])), 0.5) << j;
+}
+
 TEST(match, points_of_a_bump_go_with_it) {
   // The summit of the bump is the only place of its kind; points of the far end are not moved.
   const TriangleMesh from = bump_box(4.2), to = bump_box(3.4);
