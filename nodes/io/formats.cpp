@@ -49,6 +49,11 @@ struct OtherFormat {
   const char* hint = nullptr;
 };
 
+constexpr const char* surface_of_label =
+    "of a label image (NRRD, NIfTI-1) make the surface: ballflow run graphs/label_surface.json --set "
+    "image=FILE "
+    "--out out";
+
 // The first row that fits counts.
 constexpr std::array others = {
     OtherFormat{"gltf", "", "a binary glTF model (GLB)"},
@@ -76,6 +81,10 @@ constexpr std::array others = {
     OtherFormat{"lasf", "", "a LAS file"},
     OtherFormat{"astm-e57", "", "an E57 file"},
     OtherFormat{"\x93numpy", "", "a NumPy array"},
+    OtherFormat{"nrrd0", "", "an image (NRRD)", surface_of_label},
+    OtherFormat{std::string_view("\x5c\x01\0\0", 4), "", "an image (NIfTI)", surface_of_label},
+    OtherFormat{std::string_view("\0\0\x01\x5c", 4), "", "an image (NIfTI)", surface_of_label},
+    OtherFormat{"objecttype", "elementtype", "an image (MetaImage)", surface_of_label},
     OtherFormat{"meshversionformatted", "", "a Medit mesh"},
     OtherFormat{"$meshformat", "", "a Gmsh mesh"},
     OtherFormat{"%pdf", "", "a PDF document"},

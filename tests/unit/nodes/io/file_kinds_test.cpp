@@ -119,6 +119,7 @@ TEST(file_kinds, formats_that_are_not_read_are_called_by_their_names) {
       {"<!DOCTYPE html><html>", "web page"},
       {"version https://git-lfs.github.com/spec/v1\noid sha256:1\n", "git lfs pull"},
       {"\x93NUMPY\1", "NumPy"},
+      {"NRRD0004\ntype: uchar\n", "NRRD"},
       {"BLENDER-v300", "Blender"}};
   for (const auto& [content, name] : files) {
     for (const char* file : {"a.off", "a.obj", "a.vtk", "a.xyz", "a"}) {
