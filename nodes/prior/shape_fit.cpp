@@ -16,6 +16,9 @@ namespace {
 constexpr double along_plane = 0.1;  // weight of distances along tangent planes, against those from them
 constexpr double narrowest = 1e-3;   // width, in root mean square radii
 constexpr double standstill = 1e-3;  // of the squared width from step to step
+constexpr double slowest = 0.7;          // of the squared width, from step to step
+constexpr int steps_of_pose = 6;         // in which scores are held
+constexpr double held = 1e6;             // precision of a score that is held
 constexpr double most_outliers = 0.7, fewest_outliers = 0.01;
 constexpr double tiny_ball = 0.05;  // of the median radius
 constexpr double far_residual = 3, far_scores = 3;
@@ -189,12 +192,14 @@ class Fitter {
       normal += (mass * unit) * values * values.transpose();
       right += unit * (pairs.value_sums[i] - mass * (log_scale + expected)) * values;
     }
+    // Before the pose is found, scores would explain what is wrong with it.
+    const double beforehand = iterations_ < steps_of_pose ? held : 1;
     for (Eigen::Index mode = 0; mode < q; ++mode) {
-      normal(mode, mode) += 1;
-      right[mode] -= scores_[mode];
+      normal(mode, mode) += beforehand;
+      right[mode] -= beforehand * scores_[mode];
     }
     // A turn around an axis of the observation may be free: nothing is drawn there then.
-    const double little = 1e-9 * normal.diagonal().maxCoeff();
+    const double little = 1e-9 * normal.diagonal().tail(unknowns - q).maxCoeff();
     for (Eigen::Index i = q; i < unknowns; ++i)
       normal(i, i) += little * (i < q + 3 || i == q + 6 ? parts_.radius * parts_.radius : 1);
     const Eigen::LDLT<Eigen::MatrixXd> factors(normal);
@@ -220,9 +225,12 @@ class Fitter {
     const double least = narrowest * narrowest * parts_.radius * parts_.radius;
     const double width =
         pairs.total > 0 ? std::max(least, pairs.squares / (3 * pairs.total)) : noise_.squared_width;
-    converged_ = std::abs(width - noise_.squared_width) <= standstill * noise_.squared_width;
-    // It may only become narrower: a shape that has lost its observation does not look for it everywhere.
-    noise_.squared_width = std::min(width, noise_.squared_width);
+    converged_ = iterations_ > steps_of_pose &&
+                 std::abs(width - noise_.squared_width) <= standstill * noise_.squared_width;
+    // It may only become narrower: a shape that has lost its observation does not look for it everywhere. And
+    // not at once: pairs that are decided early are wrong.
+    noise_.squared_width =
+        std::max(slowest * noise_.squared_width, std::min(width, noise_.squared_width));
     const double count = static_cast<double>(observation_.points.points.cols());
     noise_.outliers = std::clamp(1 - pairs.total / count, fewest_outliers, most_outliers);
   }

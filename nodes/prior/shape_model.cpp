@@ -46,12 +46,14 @@ LabelledPoints mean_normals(std::span<const LabelledShape> instances,
 
 }  // namespace
 
-LabelledShape labelled_shape(const MatchedBalls& matched) {
+LabelledShape labelled_shape(const MatchedBalls& matched, bool carried) {
+  const bool smooth = carried && !matched.carried_radii.empty();
+  const Array<double>& radii = smooth ? matched.carried_radii : matched.radii;
   LabelledShape shape;
-  shape.centers = columns(matched.centers);
-  shape.log_radii.resize(static_cast<Eigen::Index>(matched.radii.size()));
-  for (std::size_t i = 0; i < matched.radii.size(); ++i)
-    shape.log_radii[static_cast<Eigen::Index>(i)] = logarithm(matched.radii[i]);
+  shape.centers = columns(smooth ? matched.carried : matched.centers);
+  shape.log_radii.resize(static_cast<Eigen::Index>(radii.size()));
+  for (std::size_t i = 0; i < radii.size(); ++i)
+    shape.log_radii[static_cast<Eigen::Index>(i)] = logarithm(radii[i]);
   shape.points = columns(matched.points);
   shape.normals = columns(matched.normals);
   return shape;

@@ -13,9 +13,10 @@ namespace ballflow::geometry {
 struct ShapeModelOptions {
   bool scale = false;        // instances are scaled to one size, and differ in shape alone
   double radius_weight = 1;  // how much logarithms of radii count, in mean radii
-  double point_share = 1;  // of the surface points in the metric, from 0 to 1; the rest is that of the balls
-  double along = 0.03;     // weight of what moves points along the surface
-  int modes = 1000;        // at most
+  double point_share =
+      0.5;             // of the surface points in the metric, from 0 to 1; the rest is that of the balls
+  double along = 0.1;  // weight of what moves points along the surface
+  int modes = 1000;    // at most
 };
 
 /// An instance in its own coordinates. Its vector has 3 k coordinates of centers, k logarithms of radii, and
@@ -29,7 +30,8 @@ struct LabelledShape {
   Eigen::Index balls() const { return log_radii.size(); }
 };
 
-LabelledShape labelled_shape(const MatchedBalls& matched);
+/// With the balls as the field carried them, where these are known, or with those that replaced them.
+LabelledShape labelled_shape(const MatchedBalls& matched, bool carried);
 LabelledShape transformed(const Superposition& pose, const LabelledShape& shape);
 
 /// The inner product of displacements of all balls and points: a mean square, in squared model units.

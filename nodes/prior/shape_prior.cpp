@@ -70,8 +70,8 @@ void refuse(std::span<const MatchedBalls> instances, std::span<const TriangleMes
 }
 
 /// The mirror image, for instances that were mirrored on their way to the template.
-LabelledShape as_matched(const MatchedBalls& matched) {
-  LabelledShape shape = labelled_shape(matched);
+LabelledShape as_matched(const MatchedBalls& matched, ModelBalls balls) {
+  LabelledShape shape = labelled_shape(matched, balls == ModelBalls::carried);
   if (matched.mirrored != 0) {
     for (LabelledPoints* points : {&shape.centers, &shape.points, &shape.normals})
       points->row(0) = -points->row(0);
@@ -174,7 +174,7 @@ ShapePrior shape_prior(std::span<const MatchedBalls> instances, std::span<const 
   std::vector<LabelledShape> shapes;
   std::vector<InstanceSurface> surfaces;
   for (const std::size_t i : order) {
-    shapes.push_back(as_matched(instances[i]));
+    shapes.push_back(as_matched(instances[i], options.balls));
     surfaces.push_back({&instances[i], meshes.empty() ? nullptr : &meshes[i]});
   }
   ShapeModelOptions wanted;

@@ -11,11 +11,17 @@
 
 namespace ballflow::geometry {
 
+enum class ModelBalls {
+  carried,   // as the field of the match carried them: smooth in what differs, some may stand out
+  replaced,  // balls of the instances themselves: inside, with the noise of which one was near
+};
+
 struct ShapePriorOptions {
+  ModelBalls balls = ModelBalls::carried;
   bool scale = false;        // instances are scaled to one size, and differ in shape alone
   double radius_weight = 1;  // how much logarithms of radii count, in mean radii
-  double point_share = 1;    // of the surface points in the metric, from 0 to 1; the rest is the balls'
-  double along = 0.03;       // weight of what moves points along the surface, against what moves them off it
+  double point_share = 0.5;  // of the surface points in the metric, from 0 to 1; the rest is the balls'
+  double along = 0.1;        // weight of what moves points along the surface, against what moves them off it
   std::int64_t modes = 0;    // at most; 0: as many as there are
   std::int64_t draws = 200;  // random shapes for the specificity; 0: neither that nor the generalization
 };
@@ -33,7 +39,8 @@ struct ShapePriorOptions {
 /// distance, label by label, of random shapes with standard normal scores from the nearest instance.
 ///
 /// - `instances`: at least two, with as many balls and points each, not all equal; `meshes`: none, or one for
-///   each in the same order. Mirrored matches are mirrored back.
+///   each in the same order. Mirrored matches are mirrored back; matches without carried radii have replaced
+///   balls only.
 /// - The order of the instances changes the order of scores, poses and distances and nothing else; more
 ///   threads change nothing.
 /// - Throws InputError for one instance, for other numbers of balls, for instances without any difference.

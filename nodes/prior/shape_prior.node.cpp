@@ -47,6 +47,14 @@ struct ShapePrior {
             "surfaces of the instances in their order, for distances of the evaluation; else these are "
             "measured to tangent planes");
     d.output("prior", &ShapePrior::prior).doc("mean, modes, scores of the instances, evaluation");
+    d.choice("balls", &ShapePrior::options, &ShapePriorOptions::balls,
+             {{geometry::ModelBalls::carried, "carried",
+               "as the match carried them: smooth in what differs between instances, but some may stand out "
+               "of thin "
+               "parts"},
+              {geometry::ModelBalls::replaced, "replaced",
+               "the instances' own balls: inside, with the noise of which ball was near"}})
+        .doc("which balls of the matches the model is made of");
     d.param("scale", &ShapePrior::options, &ShapePriorOptions::scale)
         .doc("scale the instances to one size: the model then says how shapes vary, and nothing of size");
     d.param("radius_weight", &ShapePrior::options, &ShapePriorOptions::radius_weight)
@@ -60,7 +68,7 @@ struct ShapePrior {
         .at_most(1)
         .doc(
             "weight of the surface points, the rest is that of the balls. 1: the surface decides and balls "
-            "follow, without the noise of which of its balls an instance was matched by; 0: balls decide");
+            "follow, right where they are replaced ones with their noise; 0: balls decide");
     d.param("along", &ShapePrior::options, &ShapePriorOptions::along)
         .unit("1")
         .at_least(0)
