@@ -16,9 +16,10 @@ namespace {
 constexpr double along_plane = 0.1;  // weight of distances along tangent planes, against those from them
 constexpr double narrowest = 1e-3;   // width, in root mean square radii
 constexpr double standstill = 1e-3;  // of the squared width from step to step
-constexpr double slowest = 0.7;          // of the squared width, from step to step
-constexpr int steps_of_pose = 6;         // in which scores are held
-constexpr double held = 1e6;             // precision of a score that is held
+constexpr double at_rest = 3e-3;     // of scores, turns and shifts by radii
+constexpr double slowest = 0.7;      // of the squared width, from step to step
+constexpr int steps_of_pose = 6;     // in which scores are held
+constexpr double held = 1e6;         // precision of a score that is held
 constexpr double most_outliers = 0.7, fewest_outliers = 0.01;
 constexpr double tiny_ball = 0.05;  // of the median radius
 constexpr double far_residual = 3, far_scores = 3;
@@ -208,6 +209,8 @@ class Fitter {
     covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval();
 
     scores_ += step.head(q);
+    moved_ = std::max(step.segment<3>(q).norm(), step.segment<3>(q + 3).norm() / parts_.radius);
+    if (q > 0) moved_ = std::max(moved_, step.head(q).cwiseAbs().maxCoeff());
     const Eigen::Matrix3d rotation = turn(step.segment<3>(q));
     const double growth = options_.scale ? std::clamp(1 + step[q + 6], 0.5, 2.0) : 1;
     // Turned, grown and shifted in the coordinates of the model, then as before.
@@ -225,12 +228,11 @@ class Fitter {
     const double least = narrowest * narrowest * parts_.radius * parts_.radius;
     const double width =
         pairs.total > 0 ? std::max(least, pairs.squares / (3 * pairs.total)) : noise_.squared_width;
-    converged_ = iterations_ > steps_of_pose &&
+    converged_ = iterations_ > steps_of_pose && moved_ <= at_rest &&
                  std::abs(width - noise_.squared_width) <= standstill * noise_.squared_width;
     // It may only become narrower: a shape that has lost its observation does not look for it everywhere. And
     // not at once: pairs that are decided early are wrong.
-    noise_.squared_width =
-        std::max(slowest * noise_.squared_width, std::min(width, noise_.squared_width));
+    noise_.squared_width = std::max(slowest * noise_.squared_width, std::min(width, noise_.squared_width));
     const double count = static_cast<double>(observation_.points.points.cols());
     noise_.outliers = std::clamp(1 - pairs.total / count, fewest_outliers, most_outliers);
   }
@@ -244,6 +246,7 @@ class Fitter {
   Eigen::MatrixXd covariance_;
   FitNoise noise_;
   std::vector<double> explained_;
+  double moved_ = 0;  // by the last step: scores, radians, radii
   int iterations_ = 0;
   bool converged_ = false;
 };
