@@ -91,6 +91,7 @@ class Subject {
   /// The value of a field, or null; an object when the name stands for all fields of a summary.
   const Value& find(const std::string& field) const {
     static const Value null;
+    if (const Value& value = of_output(field); !value.is_null()) return value;
     std::string name = field;
     std::replace(name.begin(), name.end(), '/', '.');
     const std::vector<std::string> parts = split(name, '.');
@@ -136,6 +137,20 @@ class Subject {
   }
 
  private:
+  /// The field of an output by its whole name, which may have dots: outputs of maps over files have.
+  const Value& of_output(const std::string& field) const {
+    static const Value null;
+    const std::pair<std::string, const Value*>* longest = nullptr;
+    const auto all = outputs();
+    for (const auto& output : all) {
+      const std::string& name = output.first;
+      if (field != name && !field.starts_with(name + ".")) continue;
+      if (longest == nullptr || name.size() > longest->first.size()) longest = &output;
+    }
+    if (longest == nullptr) return null;
+    const std::string rest = field.substr(longest->first.size());
+    return inside(*longest->second, split(rest, '.'), 1);
+  }
   /// parts[at] is a parameter or a port of the node.
   const Value& of_node(const std::string& path, const std::vector<std::string>& parts, std::size_t at) const {
     static const Value null;

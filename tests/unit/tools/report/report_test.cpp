@@ -375,6 +375,19 @@ TEST(report_page, plots_how_good_a_model_of_shapes_is) {
   EXPECT_EQ(count(page, "class=\"guide\""), 8u) << "two lines with a key each, twice";
 }
 
+TEST(report_page, shows_outputs_of_a_map_over_files_whose_names_have_dots) {
+  ReportInput input = sweep();
+  nlohmann::json& report = input.run.report;
+  report.erase("variants");
+  report["outputs"] = {
+      {"a.off.gz/balls", {{"type", "Balls"}, {"digest", "00"}, {"summary", {{"count", 17}}}}},
+      {"b.stl/balls", {{"type", "Balls"}, {"digest", "01"}, {"summary", {{"count", 19}}}}}};
+  const std::string page = report_page(input);
+  EXPECT_TRUE(well_formed(page));
+  EXPECT_NE(page.find("a.off.gz/balls"), std::string::npos);
+  EXPECT_NE(page.find(">19<"), std::string::npos);
+}
+
 TEST(report_page, names_what_nodes_cite) {
   Registry registry;
   NodeDeclaration node;

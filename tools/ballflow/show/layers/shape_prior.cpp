@@ -101,6 +101,7 @@ std::vector<Layer> layers_of_shape_prior(const Artifact& artifact) {
     Layer surface;
     surface.name = "mean surface";
     surface.vertices = prior.points;
+    surface.visible = false;
     layers.push_back(std::move(surface));
   }
   for (std::size_t mode = 0; mode < modes; ++mode) layers.push_back(segments_of_mode(prior, mode));
