@@ -290,9 +290,15 @@ TEST_F(Cancellation, every_node_ends_soon_after_it_was_cancelled_at_any_moment) 
   for (const auto& entry : std::filesystem::directory_iterator(test::source_file("graphs"))) {
     if (entry.path().extension() != ".json") continue;
     const std::string file = entry.path().string();
+    // What takes an artifact has no default; shape_complete has the nodes of those that there are.
+    if (test::read_file(file).find("\"kind\": \"artifact\"") != std::string::npos) continue;
     const Dag dag = load_graph(file, registry());
     std::vector<Setting> settings;
-    if (dag.params.count("input") != 0) settings.push_back({"input", model(file)});
+    if (entry.path().stem() == "shape_complete") {
+      settings.push_back({"extent", "whole"});  // where a part may lie takes long to find
+    } else if (dag.params.count("input") != 0) {
+      settings.push_back({"input", model(file)});
+    }
     // Fits with many balls take longest, and differ from these in their number alone.
     if (entry.path().stem() == "robot_spheres") settings.push_back({"curves.fits", "2,4"});
     // As many balls as samples were asked for; how samples are chosen follows below.
