@@ -24,6 +24,8 @@ constexpr double same_distance = 0.1, same_rough_distance = 0.2;  // and by the 
 constexpr double exact_fit = 1e-4;                         // by the diagonal: residuals below this are one
 constexpr std::size_t most_optima = 4, most_mirrored = 2;  // distinct ones that go on with all points
 constexpr double smallest = 1e-100, largest = 1e100;       // sizes of shapes
+constexpr double tiny_part = 0.1;                          // by the size of the target: such fits anywhere
+constexpr double most_scale = 1.25;                        // of a part, whose size is not known
 constexpr double hopeless = 2.5;  // times the best rough residual: no finer search would help
 constexpr double flat = 1e-6;     // thickness of a set of points by its size
 
@@ -109,7 +111,7 @@ std::vector<ShapePose> starts_of(const PrincipalFrame& moved, const PrincipalFra
       ShapePose pose;
       pose.rotation = product(columns(target.axes), product(turn, rows(moved.axes)));
       pose.mirrored = determinant(turn) < 0 ? 1 : 0;
-      pose.similarity = options.similarity ? 1 : 0;
+      pose.similarity = options.similarity && !part ? 1 : 0;
       if (options.similarity && !part) pose.scale = target.radius / moved.radius;
       pose.translation = center - pose.scale * turned(pose, moved.mean);
       starts.push_back(pose);
@@ -172,12 +174,26 @@ std::string rounded(double value) {
 /// Optima found with few points, ascending by residual, each far from the others.
 std::vector<ShapePose> rough_optima(const Cloud& moved, const Cloud& target, const AlignOptions& options,
                                     std::vector<ShapePose> starts, Monitor& monitor) {
-  const ClosestPointsOptions quick{options.similarity, options.extent == Extent::whole, options.keep, 30,
-                                   1e-3};
+  const bool whole = options.extent == Extent::whole;
+  const ClosestPointsOptions quick{options.similarity && whole, whole, options.keep, 30, 1e-3};
   for_each_block(starts.size(), 1, monitor, 0, 0.5, [&](std::size_t, std::size_t first, std::size_t) {
     starts[first] = iterate_closest_points(moved, target, starts[first], quick, monitor);
   });
   return distinct(std::move(starts), moved, {same_rough_rotation, same_rough_distance * target.frame.radius});
+}
+
+/// The pose of a part with its scale: from where it fits rigidly to the next minimum, as long as the scale
+/// changes little. Farther away a part fits the better the smaller it is.
+ShapePose scaled_part(const Cloud& moved, const Cloud& target, const ShapePose& rigid,
+                      const AlignOptions& options, Monitor& monitor) {
+  ShapePose pose =
+      iterate_closest_points(moved, target, rigid, {true, false, options.keep, 60, 1e-5}, monitor);
+  measure(pose, moved, target, options.keep, false);
+  if (pose.scale > 1 / most_scale && pose.scale < most_scale && pose.forward <= rigid.forward) return pose;
+  monitor.warn("the scale of the part is not to be told: it is left at 1");
+  ShapePose same = rigid;
+  same.similarity = 1;
+  return same;
 }
 
 /// The first pose from `from` on that mirrors, or does not.
@@ -208,6 +224,9 @@ ShapePose align(const PointSet& moved_points, const PointSet& target_points, con
   const Cloud few_moved(moved.points, {}, coarse_points, monitor);
   const Cloud few_target(target.points, {}, coarse_points, monitor);
   const bool whole = options.extent == Extent::whole;
+  const double size = moved.frame.radius / target.frame.radius;
+  if (!whole && !(size > tiny_part && size < most_scale))
+    monitor.warn("the part is " + rounded(size) + " times as large as the target: is it in another unit?");
 
   // The best few go on; then best, second best and best mirror image are told apart.
   std::vector<ShapePose> found = starts_of(moved.frame, target.frame, options);
@@ -219,7 +238,7 @@ ShapePose align(const PointSet& moved_points, const PointSet& target_points, con
   }
   found = proper;
   found.insert(found.end(), mirrored.begin(), mirrored.end());
-  const ClosestPointsOptions thorough{options.similarity, whole, options.keep, 60, 1e-5};
+  const ClosestPointsOptions thorough{options.similarity && whole, whole, options.keep, 60, 1e-5};
   double best_rough = residual_of(found.front());
   for (const ShapePose& pose : found) best_rough = std::min(best_rough, residual_of(pose));
   for_each_block(found.size(), 1, monitor, 0.5, 1, [&](std::size_t, std::size_t first, std::size_t) {
@@ -251,6 +270,7 @@ ShapePose align(const PointSet& moved_points, const PointSet& target_points, con
                        "leave it out, mirror its model, or allow it: reflections allow");
     }
   }
+  if (!whole && options.similarity) found[best] = scaled_part(moved, target, found[best], options, monitor);
   ShapePose pose = found[best];
   pose.starts = starts;
   pose.diagonal = diagonal;

@@ -40,7 +40,7 @@ struct AlignOptions {
 ///
 /// - `moved`, `target`: 4 points or more that span space, spread over the whole surfaces; normals are not
 /// used
-/// - the scale of a part is looked for from 1 on: its size says nothing
+/// - the scale of a part, whose size says nothing, is looked for near 1: it has to be in the target's unit
 /// - warns of a second pose that is nearly as good, and of a shape that is not like the target
 ///
 /// Throws InputError for too few points, points in one plane, and with Reflections::refuse for a whole shape

@@ -74,6 +74,28 @@ TEST(align, mirror_images_are_refused_unless_asked_for) {
   EXPECT_GT(align(moved(shape, away), shape, {}).mirror_image, 1.1);
 }
 
+TEST(align, a_part_keeps_about_its_size_and_one_in_another_unit_is_told) {
+  const PointSet shape = samples_of(handed_shape(), 500, 1), other = samples_of(handed_shape(), 500, 2);
+  std::vector<Vec3> half;
+  for (const Vec3& p : shape.points)
+    if (p.x > 2.5) half.push_back(p);
+  PointSet part;
+  part.points = half;
+  Random random(8);
+  const ShapePose away = random_pose(random, 1.05);
+  Warnings warnings;
+  const ShapePose found = align(moved(part, away), other, {.extent = Extent::part}, warnings);
+  EXPECT_EQ(broken_invariant(found), "");
+  EXPECT_LT(degrees_between(found, inverse(away)), 10);
+  EXPECT_NEAR(found.scale * 1.05, 1, 0.1);
+  EXPECT_EQ(warnings.text.find("unit"), std::string::npos) << warnings.text;
+  ShapePose to_metres;
+  to_metres.scale = 0.001;
+  const ShapePose tiny = align(moved(part, to_metres), other, {.extent = Extent::part}, warnings);
+  EXPECT_EQ(broken_invariant(tiny), "");
+  EXPECT_NE(warnings.text.find("unit"), std::string::npos) << warnings.text;
+}
+
 TEST(align, another_kind_of_shape_is_reported) {
   const PointSet bracket = samples_of(generate({Shape::bracket, 2000}), 300, 1),
                  torus = samples_of(generate({Shape::torus, 2000}), 300, 1);
