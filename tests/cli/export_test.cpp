@@ -37,6 +37,8 @@ struct ExportTest : testing::Test {
                                     : graph == "shape_fit"        ? "prior=" + prior
                                     : graph == "ellipsoids"       ? "delta=4"
                                                                   : "input=shape:torus?n=1500"});
+    if (graph == "shape_prior") run.insert(run.end(), {"--set", "points=1000", "--set", "samples=300"});
+    if (graph == "shape_fit") run.insert(run.end(), {"--set", "extent=whole", "--set", "samples=300"});
     const ProcessResult result = ballflow(run);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     std::map<std::string, std::pair<std::string, std::string>> found;

@@ -12,7 +12,7 @@ class Facts {
   Facts(const NamedOutputs& outputs, const Json& params) : outputs_(outputs), params_(params) {}
 
   std::vector<std::string> find() {
-    for (const char* type : {"BallDistance", "Way"}) {
+    for (const char* type : {"BallDistance", "Way", "ShapeFit", "ShapePrior"}) {
       if (const OutputEntry* const answer = of_type(type)) facts_.push_back(describe(*answer));
     }
     balls();

@@ -96,6 +96,23 @@ TEST(key_facts, are_three_at_most_and_none_for_foreign_types_and_broken_summarie
   EXPECT_TRUE(key_facts(outputs({{"x", "TopologyTable", "not JSON"}}), Json::object()).empty());
 }
 
+TEST(key_facts, of_shapes_say_how_good_a_model_is_and_how_far_from_it_a_scan) {
+  const std::array<std::string, 3> prior = {
+      "prior", "ShapePrior",
+      R"({"instances": 4, "balls": 40, "modes": 3, "compactness": [0.5, 0.75, 1], "generalization": [2, 1.5, 1.25]})"};
+  const std::array<std::string, 3> fit = {
+      "fit", "ShapeFit",
+      R"({"observed": 1000, "residual": 0.5, "expected": 1.25, "outliers": 0.1, "mahalanobis": 2, "converged": false})"};
+  EXPECT_EQ(key_facts(outputs({prior, fit}), Json::object()),
+            (std::vector<std::string>{"1 000 points or balls, 0.5 away (unknown instances: 1.25), 10.00 % "
+                                      "outliers, scores of size 2, NOT at rest",
+                                      "4 instances of 40 balls, 3 modes, of the variance in the first ones: "
+                                      "50.00 %, 75.00 %, 100.00 %; unknown "
+                                      "instances 1.25 away, from the mean 2"}));
+  EXPECT_EQ(key_facts(outputs({{"x", "ShapePrior", R"({"balls": 3})"}}), Json::object()),
+            (std::vector<std::string>{"ShapePrior, balls 3"}));
+}
+
 TEST(remedy, is_about_the_first_step_that_changed_the_topology) {
   const Json params = {{"repair", "none"}, {"epsilon", 0.3}};
   EXPECT_NE(remedy_for("the union of inner balls closed 2 tunnels", params).find("ballflow look"),
