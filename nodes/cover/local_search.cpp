@@ -65,6 +65,22 @@ class Searches {
     });
   }
 
+  /// Starts again from the best cover of each component that is not proven the least, with all its balls and
+  /// other random numbers.
+  void restart(std::uint64_t seed, Monitor& monitor) {
+    tbb::parallel_for(std::size_t{0}, searches_.size(), [&](std::size_t k) {
+      searches_[k].reset();
+      if (parts_.whole_row(k) >= 0 || static_cast<std::int64_t>(rows_[k].size()) <= bound_of(k)) return;
+      Part part = parts_.part(k, monitor);
+      std::vector<std::int32_t> cover;
+      for (std::size_t i = 0; i < part.row_ids.size(); ++i) {
+        if (std::binary_search(rows_[k].begin(), rows_[k].end(), part.row_ids[i]))
+          cover.push_back(static_cast<std::int32_t>(i));
+      }
+      searches_[k] = std::make_unique<RegionSearch>(std::move(part), cover, bound_of(k), seed + k, monitor);
+    });
+  }
+
   bool finished() const {
     return std::none_of(searches_.begin(), searches_.end(),
                         [](const auto& search) { return search != nullptr; });
@@ -96,6 +112,13 @@ class Searches {
       const double all = search->begins_with_regions() ? steps / 2 : steps;
       search->plan(all * static_cast<double>(search->part().rows.size()) / rows);
     }
+  }
+
+  /// Steps of all searches.
+  double planned() const {
+    double sum = 0;
+    for (const auto& search : searches_) sum += search ? search->planned() : 0;
+    return sum;
   }
 
   /// Starts again from the best cover of each component, with its core alone. Large covers, and components
@@ -131,6 +154,7 @@ class Searches {
         for (const std::int32_t i : search->best()) {
           rows_[k].push_back(search->part().row_ids[static_cast<std::size_t>(i)]);
         }
+        std::sort(rows_[k].begin(), rows_[k].end());
       }
       if (search->proven()) search.reset();
     });
@@ -208,36 +232,93 @@ double number_of_steps(const CoverState& state, double rows, const LocalSearchOp
                   static_cast<double>(options.max_steps));
 }
 
-/// Makes the planned steps, or until the gap is small enough.
-void run(Searches& searches, const CoverState& state, double target_gap, Monitor& monitor) {
-  constexpr int rounds = 64;  // between two looks at the gap
-  for (int round = 0; round < rounds; ++round) {
-    const std::int64_t balls = searches.balls(), bound = state.lower_bound;
-    if (searches.finished() ||
-        static_cast<double>(balls - bound) <= target_gap * static_cast<double>(bound)) {
-      return;
-    }
-    monitor.step(static_cast<double>(round) / rounds);
-    monitor.note(std::to_string(balls) + " balls" +
-                 (bound > 0 ? ", at least " + std::to_string(bound) + " needed" : ""));
-    searches.run(1.0 / rounds, monitor);
+/// With what low, normal and high effort have in common: searches that go on from each other.
+class Effort {
+ public:
+  Effort(Searches& searches, const CoverState& state, const LocalSearchOptions& options, SearchCurve* curve)
+      : searches_(searches), state_(state), options_(options), curve_(curve) {}
+
+  /// Both searches, or `share` of the first.
+  void search(double share, Monitor& monitor) {
+    search(number_of_steps(state_, searches_.searched_rows(), options_), share, 1, 0, monitor);
   }
-}
+  /// Both once more from what was found, for longer.
+  void search_longer(Monitor& monitor) {
+    constexpr double times = 10, times_least = 1000, times_core = 100, most_work = 6e9;
+    LocalSearchOptions longer = options_;
+    longer.steps_per_ball *= times;
+    longer.work_per_ball *= times;
+    longer.max_steps =
+        static_cast<std::int64_t>(std::min(times * static_cast<double>(options_.max_steps), 2e9));
+    longer.min_steps = static_cast<std::int64_t>(
+        std::min({times_least * static_cast<double>(options_.min_steps), 2e9,
+                  std::max(static_cast<double>(options_.min_steps),
+                           most_work / visited(state_.nnz(), state_.rows(), state_.cols()))}));
+    search(number_of_steps(state_, searches_.searched_rows(), longer), 1, times_core, most_work, monitor);
+  }
+
+ private:
+  /// The second search visits core_work * gap entries, or, with `most_work`, times_core times as many and no
+  /// more than that.
+  void search(double steps, double share, double times_core, double most_work, Monitor& monitor) {
+    if (steps < 1) return;
+    PartMonitor first(monitor, 0, share < 1 ? 1 : 0.5), second(monitor, 0.5, 1);
+    searches_.plan(steps);
+    run(steps, share, first);
+    if (share < 1) return;
+    const double gap = searches_.searched_gap();
+    double work = core_work * times_core * gap;
+    if (most_work > 0) work = std::min(work, most_work);
+    searches_.narrow(options_.core_steps_per_ball * times_core * gap, work,
+                     static_cast<double>(options_.max_steps), monitor);
+    run(searches_.planned(), 1, second);
+  }
+
+  /// Makes a share of the planned steps, or until the gap is small enough.
+  void run(double steps, double share, Monitor& monitor) {
+    constexpr int rounds = 64;  // between two looks at the gap
+    const int last = static_cast<int>(share * rounds);
+    for (int round = 0; round < last; ++round) {
+      const std::int64_t balls = searches_.balls(), bound = state_.lower_bound;
+      note(balls);
+      if (searches_.finished() ||
+          static_cast<double>(balls - bound) <= options_.target_gap * static_cast<double>(bound)) {
+        return;
+      }
+      monitor.step(static_cast<double>(round) / last);
+      monitor.note(std::to_string(balls) + " balls" +
+                   (bound > 0 ? ", at least " + std::to_string(bound) + " needed" : ""));
+      searches_.run(1.0 / rounds, monitor);
+      made_ += steps / rounds;
+    }
+    note(searches_.balls());
+  }
+  void note(std::int64_t balls) {
+    if (curve_ == nullptr || (!curve_->balls.empty() && curve_->balls.back() == balls)) return;
+    curve_->steps.push_back(made_);
+    curve_->balls.push_back(balls);
+  }
+
+  Searches& searches_;
+  const CoverState& state_;
+  const LocalSearchOptions& options_;
+  SearchCurve* curve_;
+  double made_ = 0;  // steps
+};
 
 }  // namespace
 
-CoverState local_search(const CoverState& state, const LocalSearchOptions& options, Monitor& monitor) {
+CoverState local_search(const CoverState& state, const LocalSearchOptions& options, Monitor& monitor,
+                        SearchCurve* curve) {
   monitor.step(0);
   Searches searches(state, options, monitor);
-  const double steps = number_of_steps(state, searches.searched_rows(), options);
-  if (steps >= 1) {
-    PartMonitor first(monitor, 0, 0.5), second(monitor, 0.5, 1);
-    searches.plan(steps);
-    run(searches, state, options.target_gap, first);
-    const double gap = searches.searched_gap();
-    searches.narrow(options.core_steps_per_ball * gap, core_work * gap,
-                    static_cast<double>(options.max_steps), monitor);
-    run(searches, state, options.target_gap, second);
+  Effort effort(searches, state, options, curve);
+  const bool more = options.effort == SearchEffort::high;
+  PartMonitor first(monitor, 0, more ? 0.1 : 1), second(monitor, 0.1, 1);
+  effort.search(options.effort == SearchEffort::low ? 0.25 : 1, first);
+  if (more) {
+    searches.restart(static_cast<std::uint64_t>(options.seed) + (std::uint64_t{1} << 40), second);
+    effort.search_longer(second);
   }
   CoverState next = choose(state, searches.rows(), Choice::searched, monitor);
   raise_lower_bound(next);

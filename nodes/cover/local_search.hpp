@@ -2,13 +2,23 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "base/monitor.hpp"
 #include "types/cover_state.hpp"
 
 namespace ballflow::geometry {
 
+/// How long is searched. More effort never ends with more balls: it begins as less does.
+enum class SearchEffort : std::uint8_t {
+  low,     // a quarter of the first search
+  normal,  // two searches, see local_search
+  high,  // and both again from the best covers: with 10 times the steps for each ball, 1000 times min_steps,
+         // and 100 times the steps in cores, where 6 * 10^9 entries are enough for them
+};
+
 struct LocalSearchOptions {
+  SearchEffort effort = SearchEffort::normal;
   double steps_per_ball = 300;           // of the matrix
   double work_per_ball = 15'000;         // matrix entries visited: a step visits an average row and column
   std::int64_t min_steps = 200'000;      // for the whole matrix, also when it has few balls
@@ -16,6 +26,12 @@ struct LocalSearchOptions {
   double core_steps_per_ball = 13'000;   // of the second search, times the gap that the first leaves
   double target_gap = 0;                 // stop when (balls - lower bound) / lower bound is at most this
   std::int64_t seed = 1;
+};
+
+/// How many balls there were after how many steps, both of all components; steps ascend.
+struct SearchCurve {
+  std::vector<double> steps;
+  std::vector<std::int64_t> balls;
 };
 
 /// Covers what is left of the matrix, component by component; the balls are marked Choice::searched.
@@ -45,7 +61,8 @@ struct LocalSearchOptions {
 ///   lagrangian_bound before), and everything stops when the gap is at most target_gap.
 /// - Components and regions are searched in parallel; the result does not depend on the number of threads.
 /// - The lower bound stays what it was.
+/// - `curve`: filled where it is wanted.
 CoverState local_search(const CoverState& state, const LocalSearchOptions& options = {},
-                        Monitor& monitor = no_monitor());
+                        Monitor& monitor = no_monitor(), SearchCurve* curve = nullptr);
 
 }  // namespace ballflow::geometry

@@ -31,6 +31,7 @@ class RegionSearch {
 
   /// The steps that run() will make in all.
   void plan(double steps) { planned_ = steps; }
+  double planned() const { return planned_; }
   bool begins_with_regions() const { return !whole_; }
 
   /// Makes the fraction `share` of the planned steps, or goes on until the best cover has `bound` rows (which

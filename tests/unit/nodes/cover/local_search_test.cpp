@@ -57,6 +57,39 @@ TEST(local_search, is_never_worse_than_greedy_and_mostly_better) {
   EXPECT_GT(better, 50);
 }
 
+TEST(local_search, more_effort_never_ends_with_more_balls) {
+  std::mt19937 random(76);
+  int low_to_normal = 0, normal_to_high = 0;
+  for (int round = 0; round < 20; ++round) {
+    const CoverState state = lagrangian_bound(state_of(test::random_sets(random, 150, 150, 0.05), 150));
+    LocalSearchOptions options{.steps_per_ball = 0, .min_steps = 200, .core_steps_per_ball = 10};
+    std::vector<std::int64_t> balls;
+    for (const auto effort : {SearchEffort::low, SearchEffort::normal, SearchEffort::high}) {
+      options.effort = effort;
+      SearchCurve curve;
+      const CoverState covered = local_search(state, options, no_monitor(), &curve);
+      ASSERT_TRUE(test::covers(state, covered));
+      balls.push_back(*covered.upper_bound());
+      ASSERT_FALSE(curve.balls.empty());
+      ASSERT_EQ(curve.balls.size(), curve.steps.size());
+      EXPECT_EQ(curve.steps.front(), 0);
+      EXPECT_EQ(curve.balls.back(), balls.back());
+      for (std::size_t i = 1; i < curve.balls.size(); ++i) {
+        EXPECT_LT(curve.balls[i], curve.balls[i - 1]);
+        EXPECT_GT(curve.steps[i], curve.steps[i - 1]);
+      }
+      const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+      EXPECT_TRUE(test::same(local_search(state, options), covered));
+    }
+    ASSERT_GE(balls[0], balls[1]);
+    ASSERT_GE(balls[1], balls[2]);
+    low_to_normal += balls[1] < balls[0] ? 1 : 0;
+    normal_to_high += balls[2] < balls[1] ? 1 : 0;
+  }
+  EXPECT_GT(low_to_normal, 1);
+  EXPECT_GT(normal_to_high, 1);
+}
+
 TEST(local_search, strategy_ends_with_a_cover_between_bound_and_greedy) {
   std::mt19937 random(73);
   for (int round = 0; round < 40; ++round) {
