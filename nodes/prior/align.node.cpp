@@ -2,6 +2,7 @@
 
 #include <ballflow/sdk.hpp>
 
+#include "prior/eigen_version.hpp"
 #include "types/artifact_types.hpp"
 #include "types/prior_types.hpp"
 
@@ -35,6 +36,7 @@ struct Align {
     d.cites("besl1992", "iterated closest points")
         .cites("chetverikov2002", "trimmed")
         .cites("horn1987", "the transform of labelled pairs");
+    d.library("Eigen", geometry::eigen_version());
     d.memory(16 << 20, 8);
     d.input("points", &Align::points).doc("n samples of the surface that is to be moved, all over it");
     d.input("target", &Align::target).doc("samples of the surface that it is laid on");

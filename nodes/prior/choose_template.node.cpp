@@ -3,6 +3,7 @@
 #include <ballflow/sdk.hpp>
 #include <vector>
 
+#include "prior/eigen_version.hpp"
 #include "types/artifact_types.hpp"
 
 namespace ballflow::nodes {
@@ -31,6 +32,7 @@ struct ChooseTemplate {
     d.avoid_when("one shape is known to be the best: the parameter instance.");
     d.cites("osada2002", "D2: distances of pairs of points")
         .cites("gonzalez1985", "points that are evenly chosen");
+    d.library("Eigen", geometry::eigen_version());
     d.memory(8 << 20, 4);
     d.input("samples", &ChooseTemplate::samples).doc("of the surface of each shape, evenly spread");
     d.input("inner", &ChooseTemplate::inner).doc("inner balls of each shape, in the same order");

@@ -2,6 +2,7 @@
 
 #include <ballflow/sdk.hpp>
 
+#include "prior/eigen_version.hpp"
 #include "types/artifact_types.hpp"
 #include "types/prior_types.hpp"
 
@@ -60,6 +61,7 @@ struct Match {
         "parts of the shapes do not correspond, or they are not aligned to a few degrees: it ends in a wrong "
         "correspondence, smooth and plausible.");
     d.cites("myronenko2010", "coherent point drift, low rank").cites("kornberger2010", "6.3.1");
+    d.library("Eigen", geometry::eigen_version());
     d.memory(std::uint64_t{128} << 20, 64);
     d.input("balls", &Match::balls).doc("k balls of the template inside its surface: TemplateBalls");
     d.input("target", &Match::target).doc("m samples of the template's surface, with normals");

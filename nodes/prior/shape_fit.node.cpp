@@ -3,6 +3,7 @@
 #include <ballflow/sdk.hpp>
 #include <optional>
 
+#include "prior/eigen_version.hpp"
 #include "types/artifact_types.hpp"
 #include "types/prior_types.hpp"
 #include "types/shape_types.hpp"
@@ -40,6 +41,7 @@ struct ShapeFit {
         "alone is wanted (modes = 1 comes near it, ShapeInstance without scores is it).");
     d.cites("myronenko2010", "points as a mixture of Gaussians around a shape");
     d.cites("cootes1995", "shapes by their scores").cites("kornberger2010", "6.3.1");
+    d.library("Eigen", geometry::eigen_version());
     d.memory(std::uint64_t{32} << 20, 8);
     d.input("prior", &ShapeFit::prior).doc("mean and modes");
     d.input("points", &ShapeFit::points)

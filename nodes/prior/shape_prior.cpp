@@ -48,7 +48,7 @@ void refuse(std::span<const MatchedBalls> instances, std::span<const TriangleMes
   const std::size_t n = instances.size();
   if (n < 2) {
     throw InputError(
-        std::to_string(n) + (n == 1 ? " instance" : " instances") + " do not tell how a shape varies",
+        std::to_string(n) + (n == 1 ? " instance does" : " instances do") + " not tell how a shape varies",
         "give two instances at least, better ten: each adds one mode");
   }
   if (!meshes.empty() && meshes.size() != n) {
@@ -65,6 +65,18 @@ void refuse(std::span<const MatchedBalls> instances, std::span<const TriangleMes
                            std::to_string(instances[0].size()) + " and " +
                            std::to_string(instances[0].points.size()),
                        "match all instances to one template");
+    }
+  }
+}
+
+/// Their squares must be numbers.
+void refuse_huge(std::span<const LabelledShape> shapes, std::span<const std::size_t> given) {
+  constexpr double largest = 1e100;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    for (const LabelledPoints* points : {&shapes[i].centers, &shapes[i].points}) {
+      if (points->cols() == 0 || points->cwiseAbs().maxCoeff() <= largest) continue;
+      throw InputError(name_of(given[i], shapes.size()) + " has coordinates beyond 1e100",
+                       "scale the shapes, all by one factor");
     }
   }
 }
@@ -177,6 +189,7 @@ ShapePrior shape_prior(std::span<const MatchedBalls> instances, std::span<const 
     shapes.push_back(as_matched(instances[i], options.balls));
     surfaces.push_back({&instances[i], meshes.empty() ? nullptr : &meshes[i]});
   }
+  refuse_huge(shapes, order);
   ShapeModelOptions wanted;
   wanted.scale = options.scale;
   wanted.radius_weight = options.radius_weight;

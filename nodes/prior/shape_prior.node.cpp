@@ -3,6 +3,7 @@
 #include <ballflow/sdk.hpp>
 #include <vector>
 
+#include "prior/eigen_version.hpp"
 #include "types/artifact_types.hpp"
 #include "types/prior_types.hpp"
 #include "types/shape_types.hpp"
@@ -38,6 +39,7 @@ struct ShapePrior {
         "shape varies; and for shapes that bend at joints, which no linear modes describe.");
     d.cites("kornberger2010", "6.3.1").cites("cootes1995", "point distribution models");
     d.cites("gower1975", "superposition on the mean").cites("davies2002", "generalization and specificity");
+    d.library("Eigen", geometry::eigen_version());
     d.memory(std::uint64_t{16} << 20, 8);
     d.input("instances", &ShapePrior::instances)
         .doc("matched to one template, as many balls and points each");

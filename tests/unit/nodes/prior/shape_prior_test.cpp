@@ -198,11 +198,16 @@ TEST(shape_prior, refuses_what_is_no_family) {
     }
     return std::string("accepted");
   };
-  EXPECT_NE(message({known.members[0]}, {}).find("1 instance do"), std::string::npos);
+  EXPECT_NE(message({known.members[0]}, {}).find("1 instance does not"), std::string::npos);
   EXPECT_NE(message({known.members[0], known.members[0]}, {}).find("all the same shape"), std::string::npos);
   EXPECT_NE(
       message({known.members[0], family_member(0, 0, 29)}, {}).find("instance 1 (of 0 to 1) has 29 balls"),
       std::string::npos);
+  ShapePose huge;
+  huge.scale = 1e120;
+  EXPECT_NE(message({known.members[0], known.members[1], moved(known.members[2], huge)}, {})
+                .find("instance 2 (of 0 to 2) has coordinates beyond 1e100"),
+            std::string::npos);
   EXPECT_NE(message(known.members, {TriangleMesh{}}).find("1 meshes for 3 instances"), std::string::npos);
 }
 
