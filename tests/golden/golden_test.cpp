@@ -88,6 +88,15 @@ const std::vector<Case>& cases() {
        {{"input", "shape:torus?n=2500"}, {"shrink", "0.6"}},
        kNoTopology},
       {"torus_outside", "outer_medial_axis", of_vertices({{"input", "shape:torus?n=6000"}}), kNoTopology},
+      // A plate 2 x 2 x 0.04 within 0.01: balls for that are more than 3000.
+      {"plate_ellipsoids",
+       "ellipsoids",
+       {{"input", "shape:box?R=1&r=0.02"}, {"delta", "0.5"}, {"spacing", "5"}},
+       kNoTopology},
+      {"plate_60_ellipsoids",
+       "k_ellipsoids",
+       {{"input", "shape:box?R=1&r=0.02"}, {"delta", "2"}, {"spacing", "10"}, {"k", "60"}},
+       kNoTopology},
       {"double_torus_150_balls", "k_balls",
        of_vertices({{"input", "shape:doubleTorus?n=4000"}, {"k", "150"}}), kNoTopology},
   };
