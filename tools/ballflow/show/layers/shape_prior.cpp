@@ -19,7 +19,7 @@ namespace {
 using geometry::ShapePrior;
 using geometry::Vec3;
 
-constexpr std::size_t most_sliders = 3;
+constexpr std::size_t most_sliders = 3, most_frames = 30000;
 constexpr double farthest = 3;  // standard deviations
 
 Vec3 displacement(const ShapePrior& prior, std::size_t mode, std::size_t ball) {
@@ -91,10 +91,12 @@ std::vector<Layer> layers_of_shape_prior(const Artifact& artifact) {
   }
   balls.attributes = {std::move(varies), std::move(grows), radius_attribute(prior.radii.span())};
   balls.colour_by = "variation";
-  if (modes > 0) {
-    balls.chain = sliders(prior, modes);
+  // Every ball has a frame for each slider, which a page writes out.
+  const std::size_t moving = std::min(modes, most_frames / prior.balls());
+  if (moving > 0) {
+    balls.chain = sliders(prior, moving);
     for (std::size_t ball = 0; ball < prior.balls(); ++ball)
-      balls.frames.push_back(static_cast<std::uint32_t>(ball * modes + modes - 1));
+      balls.frames.push_back(static_cast<std::uint32_t>(ball * moving + moving - 1));
   }
   std::vector<Layer> layers = {std::move(balls)};
   if (!prior.points.empty()) {
