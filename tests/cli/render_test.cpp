@@ -74,6 +74,23 @@ TEST_F(RenderTest, draws_the_outputs_of_a_run_the_same_way_each_time) {
   EXPECT_TRUE(test::read_file(folder.file("picture.png")) == bytes);
 }
 
+TEST_F(RenderTest, animates_a_joint) {
+  const auto run = ballflow({"run", "--quiet", test::source_file("graphs/check_spheres.json"), "--report",
+                             folder.file("report.json")});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto moved = render({"latest", "--animate", "elbow", "--frames", "3"});
+  ASSERT_EQ(moved.exit_code, 0) << moved.err;
+  const std::string bytes = test::read_file(folder.file("picture.png"));
+  EXPECT_NE(bytes.find("acTL"), std::string::npos);
+  EXPECT_GT(drawn(picture(), 0, 120), 100);
+  ASSERT_EQ(render({"latest", "--animate", "elbow", "--frames", "3", "--threads", "1"}).exit_code, 0);
+  EXPECT_TRUE(test::read_file(folder.file("picture.png")) == bytes);
+  const auto refused = render({"latest", "--animate", "tail"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("the joints are"), std::string::npos) << refused.err;
+  EXPECT_NE(render({"shape:torus", "--animate", "elbow"}).err.find("nothing moves"), std::string::npos);
+}
+
 TEST_F(RenderTest, puts_chosen_layers_side_by_side) {
   run_medial_axis();
   ASSERT_EQ(render({"latest", "--beside", "--layers", "balls,medial_axis", "--no-legend"}).exit_code, 0);

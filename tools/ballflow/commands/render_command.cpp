@@ -14,6 +14,7 @@
 #include "commands/commands.hpp"
 #include "commands/model_file.hpp"
 #include "commands/watched.hpp"
+#include "show/motion.hpp"
 #include "show/picture/number.hpp"
 #include "show/picture/picture.hpp"
 
@@ -24,7 +25,8 @@ namespace fs = std::filesystem;
 
 struct RenderArguments {
   std::vector<std::string> names, layers, colour_by, opacity, clips;
-  std::string output, size = "1600x1200", view = "30,20", up, ground = "white";
+  std::string output, size = "1600x1200", view = "30,20", up, ground = "white", animate;
+  int frames = 24;
   double point_size = 0;
   bool beside = false, no_legend = false;
   unsigned threads = 0;
@@ -257,6 +259,30 @@ std::pair<int, int> size_named(const std::string& text) {
   throw Error(ExitCode::usage, "\"" + text + "\" is no size of a picture", "write it as 1600x1200");
 }
 
+/// A joint from one end to the other and back.
+std::string animation(const std::vector<std::vector<show::Layer>>& scenes, const std::string& name,
+                      int frames, show::PictureOptions options, geometry::Monitor& monitor) {
+  std::vector<show::Layer> all;
+  for (const auto& scene : scenes) all.insert(all.end(), scene.begin(), scene.end());
+  const show::Chain::Joint joint = show::joint_named(all, name);
+  constexpr int ways = 8;
+  for (int k = 0; k <= ways; ++k) {
+    auto there = show::with_joint(all, name, joint.lower + k * (joint.upper - joint.lower) / ways);
+    std::erase_if(there, [](const show::Layer& layer) { return !layer.visible; });
+    std::move(there.begin(), there.end(), std::back_inserter(options.room_for));
+  }
+  show::AnimatedPng file(80, options.ground.has_value());
+  for (int i = 0; i < frames; ++i) {
+    const double t = 2.0 * i / frames, share = t < 1 ? t : 2 - t;
+    std::vector<std::vector<show::Layer>> posed;
+    for (const auto& scene : scenes)
+      posed.push_back(show::with_joint(scene, name, joint.lower + share * (joint.upper - joint.lower)));
+    geometry::PartMonitor part(monitor, static_cast<double>(i) / frames, (i + 1.0) / frames);
+    file.add(show::draw_beside(posed, options, part));
+  }
+  return file.file();
+}
+
 int render(const Common& common, const RenderArguments& arguments) {
   show::PictureOptions options;
   std::tie(options.width, options.height) = size_named(arguments.size);
@@ -278,11 +304,13 @@ int render(const Common& common, const RenderArguments& arguments) {
     if (arguments.up.empty()) {
       for (const auto& scene : scenes) options.up = std::max(options.up, show::upward_of(scene));
     }
-    const show::Image image = [&] {
+    const std::string picture = [&] {
       DrawingMonitor drawing;
-      return show::draw_beside(scenes, options, drawing);
+      if (!arguments.animate.empty())
+        return animation(scenes, arguments.animate, arguments.frames, options, drawing);
+      return show::png(show::draw_beside(scenes, options, drawing));
     }();
-    write_atomically(arguments.output, show::png(image));
+    write_atomically(arguments.output, picture);
   });
   std::printf("wrote %s (%d x %d)\n", printable(arguments.output).c_str(), options.width, options.height);
   return 0;
@@ -335,6 +363,13 @@ void add_render(const Command& app, Common& common, Action& action) {
       .between(0.1, 1000.0);
   command.flag("--beside", arguments->beside,
                "one picture beside the other, for every source or name of --layers, in one scale");
+  command
+      .option(
+          "--animate", arguments->animate,
+          "a joint of a robot, or a mode of a model of shapes (\"mode 0\"), from one end to the other and\n"
+          "back: an animated PNG")
+      .type_name("JOINT");
+  command.option("--frames", arguments->frames, "pictures of the animation").between(2, 500).shows_default();
   command.flag("--no-legend", arguments->no_legend, "do not explain the colours");
   command.option("--threads", arguments->threads, "threads; default: all cores").between(1, 1024);
   command.option("--cache", common.cache, "cache folder").type_name("DIR");

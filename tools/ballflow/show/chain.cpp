@@ -77,6 +77,25 @@ Chain chain_of(const geometry::RobotTree& tree) {
   return chain;
 }
 
+std::vector<geometry::Pose> frame_poses(const Chain& chain, const std::vector<double>& values) {
+  std::vector<geometry::Pose> poses;
+  poses.reserve(chain.frames.size());
+  for (const Chain::Frame& frame : chain.frames) {
+    const double value =
+        frame.offset + (frame.joint < 0 ? 0 : frame.factor * values[static_cast<std::size_t>(frame.joint)]);
+    geometry::Pose motion = geometry::no_motion;
+    if (frame.motion == Chain::Motion::turn) motion = geometry::rotation(frame.axis, value / (2 * half_turn));
+    if (frame.motion == Chain::Motion::slide) {
+      const geometry::Vec3 way = value * frame.axis;
+      motion[9] = way.x, motion[10] = way.y, motion[11] = way.z;
+    }
+    const geometry::Pose own = geometry::composed(frame.origin, motion);
+    poses.push_back(
+        frame.parent < 0 ? own : geometry::composed(poses[static_cast<std::size_t>(frame.parent)], own));
+  }
+  return poses;
+}
+
 Json chain_json(const Chain& chain) {
   Json json = {{"name", chain.name}, {"frames", Json::array()}, {"joints", Json::array()}};
   for (const Chain::Frame& frame : chain.frames) {

@@ -1,5 +1,6 @@
 // What moves against what in a scene: frames that hang on each other by joints. Pages have a slider for each
-// joint; pictures and exports show the pose that layers are given in.
+// joint, animated pictures (show/motion.hpp) move one; other pictures and exports show the pose that layers
+// are given in.
 #pragma once
 
 #include <cstdint>
@@ -39,6 +40,9 @@ struct Chain {
 /// A frame for each link, in the order of `from_root`; joints are those that turn or slide between limits, or
 /// all around, and follow no other. Values are the `default_values`.
 Chain chain_of(const geometry::RobotTree& tree);
+
+/// Frames in the model, for a value of each joint.
+std::vector<geometry::Pose> frame_poses(const Chain& chain, const std::vector<double>& values);
 
 /// {"name", "frames": [{"name", "parent", "origin", "motion": "turn" | "slide" | "none", "axis", "joint",
 /// "factor", "offset"}], "joints": [{"name", "unit", "lower", "upper", "value"}]}

@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 
+#include "ballflow/error.hpp"
 #include "sealed.hpp"
+#include "show/motion.hpp"
 #include "show/page/layer_json.hpp"
 #include "show/palette.hpp"
 #include "show/scene.hpp"
@@ -173,6 +176,29 @@ TEST(robot_layers, a_vertex_without_a_frame_is_noticed) {
   EXPECT_EQ(broken_invariant(layer), "");
   layer.chain = nullptr;
   EXPECT_NE(broken_invariant(layer), "");
+}
+
+TEST(robot_layers, a_joint_takes_what_hangs_on_it_along) {
+  const Robot robot = with_triangles();
+  const auto layers = layers_of(*test::sealed(robot));
+  const std::vector<std::string> joints = names_of(robot.joint_names);
+  for (const std::string name : {"out", "turn"}) {
+    const Chain::Joint joint = joint_named(layers, name);
+    for (const double value : {joint.lower, 0.3, joint.upper}) {
+      std::vector<double> values = default_values(robot);
+      values[static_cast<std::size_t>(std::find(joints.begin(), joints.end(), name) - joints.begin())] =
+          value;
+      const std::vector<Pose> poses = link_poses(robot, values);
+      const Layer posed = with_joint(layers, name, value)[0];
+      std::size_t vertex = 0;
+      for (const std::size_t link : {0u, 4u}) {
+        for (int k = 0; k < 3; ++k, ++vertex)
+          EXPECT_LT(distance(posed.vertices[vertex], moved(poses[link], robot.vertices[vertex])), 1e-12);
+      }
+    }
+  }
+  EXPECT_THROW(joint_named(layers, "open"), Error) << "it follows another one";
+  EXPECT_THROW(joint_named({}, "turn"), Error);
 }
 
 }  // namespace

@@ -168,6 +168,7 @@ Image draw_beside(const std::vector<std::vector<Layer>>& scenes, const PictureOp
   check(options);
   const std::vector<Layer> scene = all_layers(scenes);
   if (scene.empty()) refuse_nothing(scenes);
+  const std::vector<Layer>& shown = options.room_for.empty() ? scene : options.room_for;
   Image image{options.width, options.height,
               std::vector<std::uint8_t>(4 * static_cast<std::size_t>(options.width) *
                                         static_cast<std::size_t>(options.height))};
@@ -183,10 +184,10 @@ Image draw_beside(const std::vector<std::vector<Layer>>& scenes, const PictureOp
     for (int k = 0; k < n; ++k) {
       const int x = room * k / n;
       const Viewport part{x, 0, room * (k + 1) / n - x, options.height};
-      const Camera camera(scene, options.from, options.up, part, 0.04 * std::min(part.width, part.height));
+      const Camera camera(shown, options.from, options.up, part, 0.04 * std::min(part.width, part.height));
       geometry::PartMonitor watched(monitor, static_cast<double>(k) / n, (k + 1.0) / n);
       const Renderer renderer(scenes[static_cast<std::size_t>(k)], ranges, camera,
-                              planes_of(options.clips, scene, camera), strokes_of(options, scene), watched);
+                              planes_of(options.clips, shown, camera), strokes_of(options, scene), watched);
       draw_scene(renderer, part, options, image, watched);
     }
   });

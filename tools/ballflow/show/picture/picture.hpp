@@ -35,6 +35,7 @@ struct PictureOptions {
   double point_size = 0;  // diameter of points and width of lines, in pixels; 0 chooses by size and number
   bool legend = true;     // what colours mean, at the right, where there is room
   unsigned threads = 0;   // 0: those of the caller
+  std::vector<Layer> room_for;  // what the picture has room for; nothing: what is drawn
 };
 
 /// Draws the visible layers, each as its `colour_by` and `opacity` say. Equal layers and options give equal

@@ -132,16 +132,62 @@ std::string packed(const Bytes& bytes) {
   return text;
 }
 
+/// The signature and the first chunks.
+std::string head(int width, int height, std::size_t pixel) {
+  const char colour_type = pixel == 4 ? 6 : pixel == 3 ? 2 : 3;
+  std::string header;
+  append_u32(header, static_cast<std::uint32_t>(width));
+  append_u32(header, static_cast<std::uint32_t>(height));
+  header += {8, colour_type, 0, 0, 0};  // 8 bits, deflate, filters by row, not interlaced
+  return "\x89PNG\r\n\x1a\n" + chunk("IHDR", header) + chunk("sRGB", std::string(1, '\0'));
+}
+
+void append_u16(std::string& text, int value) {
+  text += {static_cast<char>(value >> 8 & 0xFF), static_cast<char>(value & 0xFF)};
+}
+
 }  // namespace
+
+void AnimatedPng::add(const Image& image) {
+  if (images_ == 0) width_ = image.width, height_ = image.height;
+  if (image.width != width_ || image.height != height_)
+    throw std::invalid_argument("the images of an animation differ in size");
+  std::string control;
+  append_u32(control, number_++);
+  append_u32(control, static_cast<std::uint32_t>(width_));
+  append_u32(control, static_cast<std::uint32_t>(height_));
+  append_u32(control, 0);
+  append_u32(control, 0);
+  append_u16(control, milliseconds_);
+  append_u16(control, 1000);
+  control += std::string(2, '\0');  // it stays until the next one replaces it
+  chunks_ += chunk("fcTL", control);
+  Pixels pixels{4, image.rgba, {}};
+  if (opaque_) {
+    pixels = {3, {}, {}};
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4)
+      pixels.bytes.insert(pixels.bytes.end(), {image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]});
+  }
+  const std::string data = packed(filtered(pixels, width_, height_));
+  if (images_++ == 0) {
+    chunks_ += chunk("IDAT", data);
+    return;
+  }
+  std::string numbered;
+  append_u32(numbered, number_++);
+  chunks_ += chunk("fdAT", numbered + data);
+}
+
+std::string AnimatedPng::file() const {
+  std::string count;
+  append_u32(count, images_);
+  append_u32(count, 0);  // without end
+  return head(width_, height_, opaque_ ? 3 : 4) + chunk("acTL", count) + chunks_ + chunk("IEND", "");
+}
 
 std::string png(const Image& image) {
   const Pixels pixels = smallest(image);
-  const char colour_type = pixels.size == 4 ? 6 : pixels.size == 3 ? 2 : 3;
-  std::string header;
-  append_u32(header, static_cast<std::uint32_t>(image.width));
-  append_u32(header, static_cast<std::uint32_t>(image.height));
-  header += {8, colour_type, 0, 0, 0};  // 8 bits, deflate, filters by row, not interlaced
-  std::string file = "\x89PNG\r\n\x1a\n" + chunk("IHDR", header) + chunk("sRGB", std::string(1, '\0'));
+  std::string file = head(image.width, image.height, pixels.size);
   if (!pixels.palette.empty()) file += chunk("PLTE", pixels.palette);
   return file + chunk("IDAT", packed(filtered(pixels, image.width, image.height))) + chunk("IEND", "");
 }
