@@ -208,6 +208,8 @@ TEST_F(RunOptionsTest, digests_are_the_same_on_a_processor_without_fma_and_avx2)
   for (std::vector<std::string>& arguments : runs) {
     SCOPED_TRACE(arguments[0]);
     const json graph = json::parse(test::read_file(arguments[0]), nullptr, true, true);
+    // What takes an artifact has no default; shape_complete has the nodes of those that there are.
+    if (graph.dump().find("\"kind\":\"artifact\"") != std::string::npos) continue;
     if (graph.contains("params") && graph.at("params").contains("input"))
       arguments.insert(arguments.end(), {"--set", "input=shape:torus?n=2000"});
     arguments.insert(arguments.begin(), "run");
