@@ -27,6 +27,7 @@ struct RawModel {
   std::vector<RawPolygon> polygons;  // which of them are fans, ascending
   std::int64_t faces = 0;            // polygons the file lists
   std::int64_t small_faces = 0;      // polygons of fewer than three corners, dropped
+  bool own_corners = false;          // of every triangle, as in STL: that corners are equal is no news
   std::vector<std::string> warnings;
 };
 

@@ -171,7 +171,7 @@ MeshFile clean(RawModel model, const ReadOptions& options, Monitor& monitor) {
     for (Index& v : t) v = new_id[static_cast<std::size_t>(v)];
   }
 
-  if (result.welded_vertices != 0) {
+  if (result.welded_vertices != 0 && !model.own_corners) {
     monitor.warn(counted(result.welded_vertices, "vertex equals an earlier one and is welded to it",
                          "vertices equal earlier ones and are welded to them"));
   }

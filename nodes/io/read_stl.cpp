@@ -188,7 +188,10 @@ class AsciiParser {
 }  // namespace
 
 RawModel parse_stl(std::string_view content, Monitor& monitor) {
-  return is_binary(content) ? parse_binary(content, monitor) : AsciiParser(content, monitor).parse();
+  RawModel model =
+      is_binary(content) ? parse_binary(content, monitor) : AsciiParser(content, monitor).parse();
+  model.own_corners = true;
+  return model;
 }
 
 }  // namespace ballflow::geometry

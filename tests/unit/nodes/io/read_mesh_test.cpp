@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <clocale>
 #include <cmath>
 #include <filesystem>
@@ -129,6 +130,22 @@ TEST(read_mesh, equal_vertices_are_welded_to_the_first_and_counted) {
   EXPECT_EQ(file.welded_vertices, 2);
   ASSERT_EQ(listener.warnings.size(), 1u);
   EXPECT_EQ(listener.warnings[0].substr(0, 2), "2 ");
+}
+
+TEST(read_mesh, equal_corners_of_stl_are_welded_without_a_word) {
+  std::string text = "solid\n";
+  const std::array<const char*, 4> corners{"0 0 0", "1 0 0", "0 1 0", "0 0 1"};
+  for (const auto& face : {std::array{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}) {
+    text += "facet normal 0 0 0\nouter loop\n";
+    for (const int corner : face)
+      text += std::string("vertex ") + corners[static_cast<std::size_t>(corner)] + "\n";
+    text += "endloop\nendfacet\n";
+  }
+  Listener listener;
+  const MeshFile file = read("a.stl", text + "endsolid\n", listener);
+  EXPECT_EQ(file.welded_vertices, 8);
+  EXPECT_EQ(file.points.points.size(), 4u);
+  EXPECT_TRUE(listener.warnings.empty());
 }
 
 TEST(read_mesh, degenerate_and_repeated_faces_and_unused_vertices_are_dropped_and_counted) {
