@@ -140,9 +140,11 @@ class Builder {
 TriangleMesh label_surface(const LabelVolume& volume, const LabelSurfaceOptions& options, Monitor& monitor) {
   const Inside inside(volume, options.label);
   Place low = volume.size, high{-1, -1, -1};
+  Lookout look(monitor);
   for (std::int64_t z = 0; z < volume.size[2]; ++z)
     for (std::int64_t y = 0; y < volume.size[1]; ++y)
       for (std::int64_t x = 0; x < volume.size[0]; ++x) {
+        look(1);
         const Place p{x, y, z};
         if (!inside(p)) continue;
         for (std::size_t a = 0; a < 3; ++a) {
