@@ -109,7 +109,8 @@ typedef struct bf_run {
    * duration of the run; retain it to keep its data longer. */
   int (*input)(void* host, bf_bytes port, uint64_t index, bf_artifact* artifact);
   /* Hands over the arrays of an output port (ownership of every array passes to the engine, also on
-   * failure) and its summary, a JSON object. Returns 0 on success. */
+   * failure) and its summary, a JSON object. No bytes: the summary that the type makes of the arrays, and {}
+   * where it makes none. Returns 0 on success. */
   int (*output)(void* host, bf_bytes port, const bf_array* arrays, uint64_t array_count, bf_bytes summary);
   /* Why the node failed: one line with the cause, one line with what to do next (may be empty). */
   void (*fail)(void* host, bf_bytes cause, bf_bytes hint);
@@ -146,6 +147,11 @@ typedef struct bf_type {
    * the arrays with the declaration before. */
   void (*check)(void* self, const bf_artifact* artifact, void* context,
                 void (*found)(void* context, bf_bytes text));
+  /* May be null. Calls made(context, summary) with the summary of an artifact that `check` found nothing
+   * wrong with: for who has the arrays alone, like nodes and programs of other languages. Whoever calls it
+   * ignores the summary that the artifact has. */
+  void (*summarize)(void* self, const bf_artifact* artifact, void* context,
+                    void (*made)(void* context, bf_bytes summary));
 } bf_type;
 #define BF_TYPE_MIN_SIZE BALLFLOW_SIZE_UP_TO(bf_type, check)
 

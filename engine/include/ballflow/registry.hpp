@@ -20,14 +20,15 @@ struct PluginCandidate {
 
 class Registry {
  public:
-  /// Looks for *.so in `extra` (files or folders), the folders of $BALLFLOW_PLUGIN_PATH, and next to the
-  /// executable (../lib/ballflow). Reads the ABI note of each file before it is loaded. A library that
-  /// cannot be used is a refused candidate, not an error, unless it is a file of `extra`; a node or type
-  /// declared twice with different content throws Error (code plugin) that names both files, and so does a
-  /// node that two different files declare in equal words: nothing says that they compute the same. Of copies
-  /// of one file, and of equal declarations of a type, the first found stays. A file that is found twice is
-  /// loaded once.
-  static std::shared_ptr<const Registry> load(const std::vector<std::string>& extra = {});
+  /// Looks for *.so in `extra` (files or folders), the folders of $BALLFLOW_PLUGIN_PATH, and in `installed`:
+  /// unless told otherwise next to the executable (../lib/ballflow). Reads the ABI note of each file before
+  /// it is loaded. A library that cannot be used is a refused candidate, not an error, unless it is a file of
+  /// `extra`; a node or type declared twice with different content throws Error (code plugin) that names both
+  /// files, and so does a node that two different files declare in equal words: nothing says that they
+  /// compute the same. Of copies of one file, and of equal declarations of a type, the first found stays. A
+  /// file that is found twice is loaded once.
+  static std::shared_ptr<const Registry> load(const std::vector<std::string>& extra = {},
+                                              const std::string& installed = default_folder());
   /// The default folder of node libraries of this executable.
   static std::string default_folder();
 
@@ -67,5 +68,11 @@ std::string check_arrays(const TypeDeclaration& type, const Artifact& artifact);
 
 /// The same, and runs the type's own check.
 std::string check_artifact(const TypeDeclaration& type, const Artifact& artifact);
+
+/// An artifact of these arrays, as a node of a library would give it: checked, and with the summary that its
+/// type makes of them ({} where it makes none). `owner` as in Artifact::seal. Throws Error (code plugin) that
+/// says what is wrong with the arrays.
+ArtifactPtr make_artifact(const TypeDeclaration& type, const std::vector<NamedArray>& arrays,
+                          const std::shared_ptr<const void>& owner);
 
 }  // namespace ballflow

@@ -1,4 +1,5 @@
 #include <map>
+#include <optional>
 
 #include "ballflow/artifact_view.hpp"
 #include "ballflow/registry.hpp"
@@ -108,6 +109,28 @@ std::string check_artifact(const TypeDeclaration& type, const Artifact& artifact
     }
   });
   return broken;
+}
+
+ArtifactPtr make_artifact(const TypeDeclaration& type, const std::vector<NamedArray>& arrays,
+                          const std::shared_ptr<const void>& owner) {
+  ArtifactPtr artifact = Artifact::seal(type.id, type.version, arrays, "{}", owner);
+  if (const std::string wrong = check_artifact(type, *artifact); !wrong.empty())
+    throw Error(ExitCode::plugin, "no valid " + type.id + ": " + wrong);
+  if (type.entry == nullptr || type.entry->struct_size < BALLFLOW_SIZE_UP_TO(bf_type, summarize) ||
+      type.entry->summarize == nullptr) {
+    return artifact;
+  }
+  const ArtifactView view(*artifact);
+  std::optional<std::string> summary;
+  type.entry->summarize(type.entry->self, &view.raw(), &summary, [](void* context, bf_bytes text) noexcept {
+    try {
+      *static_cast<std::optional<std::string>*>(context) =
+          std::string(text.data, static_cast<std::size_t>(text.size));
+    } catch (...) {  // told below
+    }
+  });
+  if (!summary) throw Error(ExitCode::plugin, "the summary of a " + type.id + " could not be made");
+  return Artifact::seal(type.id, type.version, arrays, *summary, owner);
 }
 
 }  // namespace ballflow

@@ -138,10 +138,10 @@ void Registry::add_plugin(const bf_plugin& plugin, const std::string& path, cons
   candidates_.push_back({path, tables.name, tables.version, ""});
 }
 
-std::shared_ptr<const Registry> Registry::load(const std::vector<std::string>& extra) {
+std::shared_ptr<const Registry> Registry::load(const std::vector<std::string>& extra,
+                                               const std::string& own) {
   const auto registry = std::make_shared<Registry>();
   std::set<std::string> seen;
-  const std::string own = default_folder();
   std::error_code none;
   const fs::path installed = own.empty() ? fs::path() : fs::canonical(own, none);
 

@@ -175,12 +175,20 @@ class Host {
         keep_little(named.back());
       }
       keepers.clear();
-      const ArtifactPtr artifact =
-          Artifact::seal(decl->type, decl->type_version, std::move(named), text(summary), nullptr);
       const TypeDeclaration* type = request_.registry->type(decl->type);
-      const std::string broken = type == nullptr ? std::string() : check_artifact(*type, *artifact);
-      if (!broken.empty()) {
-        throw Error(ExitCode::plugin, "output \"" + port + "\" is no valid " + decl->type + ": " + broken);
+      ArtifactPtr artifact;
+      if (summary.size == 0 && type != nullptr) {
+        try {
+          artifact = make_artifact(*type, named, nullptr);
+        } catch (const Error& error) {
+          throw Error(ExitCode::plugin, "output \"" + port + "\" is " + error.what());
+        }
+      } else {
+        artifact = Artifact::seal(decl->type, decl->type_version, std::move(named), text(summary), nullptr);
+        const std::string broken = type == nullptr ? std::string() : check_artifact(*type, *artifact);
+        if (!broken.empty()) {
+          throw Error(ExitCode::plugin, "output \"" + port + "\" is no valid " + decl->type + ": " + broken);
+        }
       }
       const std::lock_guard lock(mutex_);
       outcome.outputs[port] = artifact;

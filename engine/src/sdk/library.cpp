@@ -15,6 +15,7 @@ struct NodeEntry {
 struct TypeEntry {
   const AnyTypeDecl* decl;
   std::string (*broken)(const AnyTypeDecl&, const bf_artifact&);
+  std::string (*summary)(const AnyTypeDecl&, const bf_artifact&);
   std::string json;
   bf_type entry;
 };
@@ -36,6 +37,16 @@ void check_type(void* self, const bf_artifact* artifact, void* context,
     found(context, bytes(error.what()));
   } catch (...) {
     found(context, bytes("its check threw something that is not an exception"));
+  }
+}
+
+void summarize_type(void* self, const bf_artifact* artifact, void* context,
+                    void (*made)(void*, bf_bytes)) noexcept {
+  const auto& type = *static_cast<const TypeEntry*>(self);
+  try {
+    made(context, bytes(type.summary(*type.decl, *artifact)));
+  } catch (...) {
+    // Of an artifact that is valid there is a summary, unless memory ran out: then there is none.
   }
 }
 
@@ -63,12 +74,14 @@ const bf_node* keep_node(const AnyNodeDecl& decl) {
 }
 
 const bf_type* keep_type(const AnyTypeDecl& decl,
-                         std::string (*broken)(const AnyTypeDecl&, const bf_artifact&)) {
+                         std::string (*broken)(const AnyTypeDecl&, const bf_artifact&),
+                         std::string (*summary)(const AnyTypeDecl&, const bf_artifact&)) {
   auto kept = std::make_unique<TypeEntry>();
   kept->decl = &decl;
   kept->broken = broken;
+  kept->summary = summary;
   kept->json = decl.json();
-  kept->entry = {sizeof(bf_type), 0, bytes(kept->json), kept.get(), &check_type};
+  kept->entry = {sizeof(bf_type), 0, bytes(kept->json), kept.get(), &check_type, &summarize_type};
   return &kept.release()->entry;
 }
 

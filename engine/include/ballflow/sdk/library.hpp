@@ -16,7 +16,8 @@ namespace detail {
 /// Entries that live as long as the process; `self` is what their functions get.
 const bf_node* keep_node(const AnyNodeDecl& decl);
 const bf_type* keep_type(const AnyTypeDecl& decl,
-                         std::string (*broken)(const AnyTypeDecl& decl, const bf_artifact& artifact));
+                         std::string (*broken)(const AnyTypeDecl& decl, const bf_artifact& artifact),
+                         std::string (*summary)(const AnyTypeDecl& decl, const bf_artifact& artifact));
 
 /// Makes the table of a library, which lives as long as the process. Null when `nodes` or `types` throws.
 const bf_plugin* keep_plugin(std::string_view name, std::string_view version,
@@ -25,10 +26,15 @@ const bf_plugin* keep_plugin(std::string_view name, std::string_view version,
 
 template <class T>
 const bf_type* type_entry() {
-  static const bf_type* const entry =
-      keep_type(type_decl<T>(), [](const AnyTypeDecl& any, const bf_artifact& artifact) {
+  static const bf_type* const entry = keep_type(
+      type_decl<T>(),
+      [](const AnyTypeDecl& any, const bf_artifact& artifact) {
         const auto& decl = static_cast<const TypeDecl<T>&>(any);
         return decl.broken(decl.read(artifact));
+      },
+      [](const AnyTypeDecl& any, const bf_artifact& artifact) {
+        const auto& decl = static_cast<const TypeDecl<T>&>(any);
+        return decl.summary_of(decl.read(artifact)).text();
       });
   return entry;
 }

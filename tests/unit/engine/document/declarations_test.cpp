@@ -219,12 +219,64 @@ TEST(artifact_check, runs_the_check_of_the_type) {
         const std::string text = "saw " + std::to_string(artifact->array_count) + " arrays, length " +
                                  std::to_string(artifact->arrays[0].shape[0]);
         found(context, {text.data(), text.size()});
-      }};
+      },
+      nullptr};
   TypeDeclaration type = parse_type_declaration(
       R"({"id":"T","version":1,"doc":"","arrays":[{"name":"a","dtype":"u8","shape":["n"]}],"summary":[]})");
   type.entry = &entry;
   const auto artifact = Artifact::seal("T", 1, {{"a", BF_U8, {5}, "12345"}}, "{}", nullptr);
   EXPECT_EQ(check_artifact(type, *artifact), "saw 1 arrays, length 5");
+}
+
+namespace {
+
+/// A type whose summary is the length of its array, and whose check refuses more than five.
+TypeDeclaration counted(const bf_type& entry) {
+  TypeDeclaration type = parse_type_declaration(
+      R"({"id":"T","version":3,"doc":"","arrays":[{"name":"a","dtype":"u8","shape":["n"]}],"summary":[]})");
+  type.entry = &entry;
+  return type;
+}
+
+bf_type counting_entry() {
+  bf_type entry{};
+  entry.struct_size = sizeof entry;
+  entry.check = [](void*, const bf_artifact* artifact, void* context, void (*found)(void*, bf_bytes)) {
+    if (artifact->arrays[0].shape[0] > 5) found(context, {"too many", 8});
+  };
+  entry.summarize = [](void*, const bf_artifact* artifact, void* context, void (*made)(void*, bf_bytes)) {
+    const std::string text = R"({ "length": )" + std::to_string(artifact->arrays[0].shape[0]) + "}";
+    made(context, {text.data(), text.size()});
+  };
+  return entry;
+}
+
+}  // namespace
+
+TEST(make_artifact, has_the_summary_that_its_type_makes) {
+  const bf_type entry = counting_entry();
+  const auto made = make_artifact(counted(entry), {{"a", BF_U8, {5}, "12345"}}, nullptr);
+  EXPECT_EQ(made->type(), "T");
+  EXPECT_EQ(made->version(), 3);
+  EXPECT_EQ(made->summary(), R"({"length":5})");
+  EXPECT_EQ(made->digest(),
+            Artifact::seal("T", 3, {{"a", BF_U8, {5}, "12345"}}, R"({"length":5})", nullptr)->digest());
+}
+
+TEST(make_artifact, has_no_summary_where_the_library_of_the_type_makes_none) {
+  bf_type entry = counting_entry();
+  entry.struct_size = BF_TYPE_MIN_SIZE;  // built before there were summaries: what follows is not there
+  EXPECT_EQ(make_artifact(counted(entry), {{"a", BF_U8, {5}, "12345"}}, nullptr)->summary(), "{}");
+  entry = counting_entry();
+  entry.summarize = nullptr;
+  EXPECT_EQ(make_artifact(counted(entry), {{"a", BF_U8, {5}, "12345"}}, nullptr)->summary(), "{}");
+}
+
+TEST(make_artifact, refuses_what_the_type_refuses) {
+  const bf_type entry = counting_entry();
+  EXPECT_THROW(make_artifact(counted(entry), {{"a", BF_U8, {6}, "123456"}}, nullptr), Error);
+  EXPECT_THROW(make_artifact(counted(entry), {{"b", BF_U8, {5}, "12345"}}, nullptr), Error);
+  EXPECT_THROW(make_artifact(counted(entry), {{"a", BF_F64, {0}, nullptr}}, nullptr), Error);
 }
 
 TEST(schema, documents_every_node_port_and_parameter) {
