@@ -253,6 +253,17 @@ Dag parse_graph(const std::string& text, const std::string& file, const Registry
                 const std::vector<Setting>& settings = {}, const SweepOptions& sweep = {},
                 const std::map<std::string, ArtifactPtr>& given = {}, const FindArtifact& find = {});
 
+/// What a graph file says of itself. Its nodes are not looked at.
+struct GraphOutline {
+  std::string doc;
+  std::vector<ParamDecl> params;
+  std::vector<std::pair<std::string, std::string>> outputs;  // name, doc
+};
+/// Throws GraphError with what is wrong with the file itself, and Error when it cannot be read.
+GraphOutline load_outline(const std::string& file);
+/// The same from text; `file` is the name used in messages.
+GraphOutline parse_outline(const std::string& text, const std::string& file);
+
 /// Which nodes the outputs of the graph need; as Dag::nodes.
 std::vector<bool> needed_nodes(const Dag& dag);
 /// Which nodes these need, themselves included.

@@ -168,4 +168,18 @@ Dag load_graph(const std::string& file, const Registry& registry, const std::vec
   return parse_graph(read_text_file(file), file, registry, settings, sweep, given, find);
 }
 
+GraphOutline parse_outline(const std::string& text, const std::string& file) {
+  Findings findings;
+  const auto read = read_graph_file(json_text::Source(file, text), findings);
+  if (findings.failed()) throw GraphError(findings.take({file}));
+  GraphOutline outline;
+  if (!read) return outline;
+  outline.doc = read->doc;
+  for (const GraphParam& param : read->params) outline.params.push_back(param.decl);
+  for (const GraphOutput& output : read->outputs) outline.outputs.emplace_back(output.name, output.doc);
+  return outline;
+}
+
+GraphOutline load_outline(const std::string& file) { return parse_outline(read_text_file(file), file); }
+
 }  // namespace ballflow

@@ -1,0 +1,152 @@
+"""What calls share: where ballflow is installed, node libraries, and open caches."""
+
+from __future__ import annotations
+
+import difflib
+import json
+import os
+import threading
+from pathlib import Path
+from typing import Any, Iterable, Optional, Sequence, Union
+
+from . import _artifact, _core
+from ._errors import BallflowError, UsageError
+
+PathLike = Union[str, "os.PathLike[str]"]
+#: A folder; None for the cache of the command line; False for none.
+Cache = Union[PathLike, bool, None]
+
+_PACKAGE = Path(__file__).resolve().parent
+_lock = threading.RLock()
+_registries: dict[tuple[str, ...], Any] = {}
+_with_nodes: dict[tuple[str, ...], tuple[tuple[Any, ...], Any]] = {}
+_stores: dict[str, Any] = {}
+_owner = os.getpid()
+_used = False
+
+
+def _first_folder(candidates: Iterable[Path], what: str) -> Path:
+    tried = []
+    for candidate in candidates:
+        if candidate.is_dir():
+            return candidate
+        tried.append(str(candidate))
+    raise BallflowError(f"{what} of ballflow are not where they belong ({', '.join(tried)})", "install ballflow again")
+
+
+def _roots() -> list[Path]:
+    module = Path(_core.__file__).resolve().parent
+    # A wheel has everything below the package, a build tree beside its folder python/, and a system package in
+    # /usr/lib/python3/dist-packages, two folders below /usr/lib.
+    return [module, module.parent.parent, module.parent.parent.parent.parent]
+
+
+def library_folder() -> Path:
+    """The folder of ballflow's own node libraries."""
+    return _first_folder((root / "lib" / "ballflow" for root in _roots()), "the node libraries")
+
+
+def share_folder() -> Path:
+    """The folder that has graphs/, schemas/ and the viewer."""
+    return _first_folder((root / "share" / "ballflow" for root in _roots()), "graphs")
+
+
+def program() -> Optional[Path]:
+    """The command line program that belongs to this package; None where there is none."""
+    for root in _roots():
+        path = root / "bin" / "ballflow"
+        if os.access(path, os.X_OK) and path.is_file():
+            return path
+    return None
+
+
+def check_process() -> None:
+    """Raises where this process is a fork of one that has used ballflow: its threads are not here."""
+    global _used
+    if os.getpid() != _owner and _used:
+        raise BallflowError(
+            "ballflow was used before this process was forked, and its threads did not come along",
+            'start workers afresh: multiprocessing.get_context("spawn"), or "forkserver" before the first use',
+        )
+    _used = True
+
+
+def _forked() -> None:
+    global _owner
+    if not _used:
+        _owner = os.getpid()
+
+
+os.register_at_fork(after_in_child=_forked)
+
+
+def base_registry(plugins: Sequence[PathLike] = ()) -> Any:
+    """ballflow's node libraries, those of $BALLFLOW_PLUGIN_PATH, and `plugins` (files or folders)."""
+    key = tuple(os.fspath(plugin) for plugin in plugins)
+    with _lock:
+        found = _registries.get(key)
+        if found is None:
+            found = _core.load_registry(list(key), str(library_folder()))
+            _registries[key] = found
+            _artifact.declare(json.loads(text) for text in found.types())
+        return found
+
+
+def registry(plugins: Sequence[PathLike] = ()) -> Any:
+    """The same with the nodes that were written in Python in this process."""
+    base = base_registry(plugins)
+    from . import _local_nodes
+
+    nodes = _local_nodes.current()
+    if not nodes:
+        return base
+    key = tuple(os.fspath(plugin) for plugin in plugins)
+    with _lock:
+        known = _with_nodes.get(key)
+        if known is None or known[0] != nodes:
+            known = (nodes, base.with_nodes([_local_nodes.entry(node) for node in nodes]))
+            _with_nodes[key] = known
+        return known[1]
+
+
+def store(cache: Cache = None) -> Any:
+    """The open cache: a folder, None for that of the command line ($BALLFLOW_CACHE), False for none."""
+    if cache is False:
+        return _core.open_store("")
+    if cache is True:
+        cache = None
+    root = os.path.abspath(os.fspath(cache)) if cache is not None else _core.default_cache()
+    with _lock:
+        found = _stores.get(root)
+        if found is None or not os.path.isdir(root):
+            found = _core.open_store(root)
+            _stores[root] = found
+        return found
+
+
+def shipped_graphs() -> dict[str, Path]:
+    """The graphs that come with ballflow, by name: "medial_axis", "experiments/table_3_3"."""
+    graphs = share_folder() / "graphs"
+    found = {}
+    for pattern in ("*.json", "experiments/*.json"):
+        for path in sorted(graphs.glob(pattern)):
+            found[path.relative_to(graphs).with_suffix("").as_posix()] = path
+    return found
+
+
+def graph_file(graph: PathLike) -> str:
+    """The file of a graph: a path, or the name of a shipped one. A file that is there wins."""
+    text = os.fspath(graph)
+    if os.path.isfile(text):
+        return text
+    shipped = shipped_graphs()
+    if text in shipped:
+        return str(shipped[text])
+    near = difflib.get_close_matches(text, list(shipped), 3)
+    raise UsageError(
+        f"there is no graph {text!r}: no file, and none that comes with ballflow",
+        f"did you mean {' or '.join(map(repr, near))}?" if near else "ballflow.graphs() lists those that come with it",
+    )
+
+
+_artifact.Artifact._seal = staticmethod(lambda name, arrays: base_registry().make(name, arrays))
