@@ -35,10 +35,12 @@ struct Common {
 
 /// The graph of a command and the values set for it.
 struct GraphArguments {
-  std::string file;
+  std::string graph;  // as it was written: a path, or the name of a graph that comes with ballflow
   std::vector<std::string> sets, axes, inputs;
 
   void add_to(const Command& command);
+  /// The file of the graph. Throws Error (code usage) for what is neither a path nor such a name.
+  std::string file() const;
   std::vector<Setting> settings() const;  // of --set
   /// Reads and checks the graph, with what was set; prints its warnings.
   Dag load(const Common& common, const Registry& registry) const;

@@ -7,6 +7,7 @@
 
 #include "ballflow/gc.hpp"
 #include "ballflow/history.hpp"
+#include "ballflow/shipped_graphs.hpp"
 #include "ballflow/text.hpp"
 #include "commands/commands.hpp"
 #include "commands/model_file.hpp"
@@ -131,7 +132,11 @@ std::pair<std::string, std::string> split_setting(const std::string& option, con
 }
 
 void GraphArguments::add_to(const Command& command) {
-  command.option("graph", file, "graph file").required().type_name("GRAPH.json");
+  command
+      .option("graph", graph,
+              "graph file, or the name of a graph that comes with ballflow (\"ballflow graph --list\")")
+      .required()
+      .type_name("GRAPH");
   command
       .option("--set", sets,
               "set a parameter of the graph (epsilon=0.5) or of one node (prune/greedy.mode=until_covered)")
@@ -163,10 +168,12 @@ std::vector<Setting> split(const char* option, const std::vector<std::string>& t
 
 }  // namespace
 
+std::string GraphArguments::file() const { return find_graph(graph); }
+
 std::vector<Setting> GraphArguments::settings() const { return split("--set", sets, "epsilon=0.5"); }
 
 Dag GraphArguments::load(const Common& common, const Registry& registry) const {
-  Dag dag = load_graph(file, registry, settings(), {split("--axis", axes, "epsilon=0.1,0.3"), inputs}, {},
+  Dag dag = load_graph(file(), registry, settings(), {split("--axis", axes, "epsilon=0.1,0.3"), inputs}, {},
                        [&common](const std::string& name) { return find_artifact(common, name); });
   for (const Diagnostic& warning : dag.warnings) std::fprintf(stderr, "%s\n", warning.text().c_str());
   common.places->reads(dag);
@@ -174,7 +181,7 @@ Dag GraphArguments::load(const Common& common, const Registry& registry) const {
 }
 
 std::string GraphArguments::words() const {
-  std::string text = shell_word(file);
+  std::string text = shell_word(graph);
   for (const std::string& set : sets) text += " --set " + shell_word(set);
   for (const std::string& axis : axes) text += " --axis " + shell_word(axis);
   if (!inputs.empty()) text += " --inputs";

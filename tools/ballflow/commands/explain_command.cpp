@@ -76,10 +76,10 @@ int explain_node(const Common& common, const ExplainArguments& arguments) {
     throw Error(ExitCode::usage, "there is no cache, so no run is recorded: " + store->why(),
                 "name its folder with --cache or $BALLFLOW_CACHE");
   }
-  const bool planned = !arguments.graph.file.empty();
+  const bool planned = !arguments.graph.graph.empty();
   NodeRecords now;
   std::string now_name = "the next run", latest_id;
-  const std::string& graph_file = arguments.graph.file;
+  const std::string graph_file = planned ? arguments.graph.file() : std::string();
   if (planned) {
     const auto registry = common.registry();
     const Dag dag = arguments.graph.load(common, *registry);
@@ -115,7 +115,8 @@ void add_explain(const Command& app, Common& common, Action& action) {
       .type_name("NODE");
   arguments->graph.add_to(command);
   command.find("graph").required(false).description(
-      "graph file: explain what its next run would do; default: the latest run that was recorded");
+      "graph file, or the name of a graph that comes with ballflow: explain what its next run would do;\n"
+      "default: the latest run that was recorded");
   command
       .option("--against", arguments->against,
               "the run to compare with: latest, previous, an id from \"ballflow runs\", or a report file "

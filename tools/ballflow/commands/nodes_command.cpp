@@ -1,6 +1,7 @@
 #include <cstdio>
 
 #include "ballflow/schema.hpp"
+#include "ballflow/shipped_graphs.hpp"
 #include "commands/commands.hpp"
 
 namespace ballflow::cli {
@@ -66,10 +67,7 @@ int show_nodes(const Common& common, const NodesArguments& arguments) {
   } else if (arguments.graph_schema) {
     std::printf("%s\n", graph_schema(*registry).dump(2).c_str());
   } else if (arguments.markdown) {
-    // Installed graphs are in share/ballflow, node libraries in lib/ballflow.
-    const std::string graphs = arguments.graphs.empty()
-                                   ? Registry::default_folder() + "/../../share/ballflow/graphs"
-                                   : arguments.graphs;
+    const std::string graphs = arguments.graphs.empty() ? shipped_graphs_folder() : arguments.graphs;
     std::printf("%s", nodes_markdown(*registry, find_examples(graphs, *registry)).c_str());
   } else if (!arguments.describe.empty()) {
     const NodeDeclaration* node = registry->node(arguments.describe);

@@ -19,7 +19,7 @@ int show_plan(const Common& common, const PlanArguments& arguments) {
   const Dag dag = arguments.graph.load(common, *registry);
   const auto store = common.store();
   const std::vector<NodePlan> plans =
-      plan(dag, *store, arguments.seed, latest_manifests(*store, arguments.graph.file));
+      plan(dag, *store, arguments.seed, latest_manifests(*store, arguments.graph.file()));
   std::vector<std::vector<std::string>> rows = {{"node", "", "seconds", "memory", "why"}};
   double run_seconds = 0, maybe_seconds = 0, hit_seconds = 0;
   std::uint64_t memory = 0;
@@ -61,7 +61,7 @@ int check(const Common& common, const GraphArguments& arguments) {
     return std::to_string(n) + " " + thing + (n == 1 ? "" : "s");
   };
   const std::string variants = dag.variants.empty() ? "" : counted(dag.variants.size(), "variant") + " with ";
-  std::printf("%s: %s%s, %s, no errors\n", printable(arguments.file).c_str(), variants.c_str(),
+  std::printf("%s: %s%s, %s, no errors\n", printable(arguments.graph).c_str(), variants.c_str(),
               counted(dag.nodes.size(), "node").c_str(), counted(dag.outputs.size(), "output").c_str());
   return 0;
 }

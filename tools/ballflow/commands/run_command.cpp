@@ -186,7 +186,7 @@ int run_graph(const Common& common, const RunArguments& arguments, const AfterRu
   const auto registry = common.registry();
   const Dag dag = arguments.graph.load(common, *registry);
   if (arguments.sweep && dag.variants.empty()) {
-    throw Error(ExitCode::usage, arguments.graph.file + " has no \"sweep\"",
+    throw Error(ExitCode::usage, arguments.graph.graph + " has no \"sweep\"",
                 "say what to sweep over: --axis NAME=VALUE,VALUE, or --inputs 'PATTERN' for files");
   }
   const std::vector<Setting> settings = arguments.graph.settings();
@@ -210,14 +210,14 @@ int run_graph(const Common& common, const RunArguments& arguments, const AfterRu
   if (!common.no_cache && !store->why().empty()) {
     std::fprintf(stderr, "warning: the cache is not written: %s\n", store->why().c_str());
   }
-  const std::string id = new_run_id(arguments.graph.file);
+  const std::string id = new_run_id(arguments.graph.file());
   const KeepWithin collect_at_the_end(store, common.cache_limit(*store));
 
   const std::atomic<bool>& cancel = cancel_on_signals();
   // Who reads the progress may go; the results are wanted nevertheless.
   const auto on_broken_pipe = std::signal(SIGPIPE, SIG_IGN);
   options.cancel = &cancel;
-  const Manifests earlier = latest_manifests(*store, arguments.graph.file);
+  const Manifests earlier = latest_manifests(*store, arguments.graph.file());
   Sinks sinks;  // after what they use
   if (!arguments.quiet && (arguments.table || isatty(STDERR_FILENO) != 0)) {
     Expectations expectations;

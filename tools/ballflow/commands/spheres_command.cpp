@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "ballflow/output_file.hpp"
+#include "ballflow/shipped_graphs.hpp"
 #include "ballflow/text.hpp"
 #include "commands/output_folder.hpp"
 #include "commands/run_command.hpp"
@@ -89,10 +90,7 @@ std::vector<std::string> links_of(const SpheresArguments& arguments, const std::
 }
 
 std::string graph_file(const std::string& name) {
-  // In the build folder as where ballflow is installed.
-  return fs::path(Registry::default_folder() + "/../../share/ballflow/graphs/" + name)
-      .lexically_normal()
-      .string();
+  return (fs::path(shipped_graphs_folder()) / name).string();
 }
 
 std::string list_text(const std::vector<std::string>& names) {
@@ -170,7 +168,7 @@ int check(const Common& common, SpheresArguments arguments) {
     if (const std::optional<std::string> text = robot_text(common, arguments.file)) {
       is_robot = true;
       links = links_of(arguments, *text);
-      graph.file = graph_file("check_spheres.json");
+      graph.graph = graph_file("check_spheres.json");
       graph.sets = {"robot=" + arguments.file,
                     "spheres=" + arguments.check,
                     "links=" + list_text(links),
@@ -183,7 +181,7 @@ int check(const Common& common, SpheresArguments arguments) {
                     arguments.file + " is a mesh: --links, --visual and --buffer are for robots",
                     "leave them out, or give a URDF");
       links = {fs::path(arguments.file).filename().string()};
-      graph.file = graph_file("enclosure.json");
+      graph.graph = graph_file("enclosure.json");
       graph.sets = {"input=" + arguments.file, "balls=" + arguments.check};
     }
   } catch (const geometry::InputError& error) {
@@ -275,7 +273,7 @@ int make_for_mesh(const Common& common, SpheresArguments arguments) {
                 arguments.file + " is a mesh: --links, --per-link and --visual are for robots",
                 "leave them out, or give a URDF");
   GraphArguments& graph = arguments.run.graph;
-  graph.file = graph_file(arguments.mode + ".json");
+  graph.graph = graph_file(arguments.mode + ".json");
   graph.sets = {"input=" + arguments.file,
                 "balls=" + std::to_string(arguments.balls == 0 ? 20 : arguments.balls)};
   if (arguments.mode == "protrude" && !arguments.within.empty())
@@ -308,7 +306,7 @@ int make(const Common& common, SpheresArguments arguments) {
   const std::uint64_t balls = arguments.balls == 0 ? 20 * links.size() : arguments.balls;
   const std::string fixed = fixed_counts(arguments, links);
   GraphArguments& graph = arguments.run.graph;
-  graph.file = graph_file("robot_spheres.json");
+  graph.graph = graph_file("robot_spheres.json");
   graph.sets = {"robot=" + arguments.file,
                 "links=" + list_text(links),
                 "mode=" + arguments.mode,
