@@ -38,6 +38,7 @@
 namespace ballflow {
 
 /// Says that a run is alive. Held by an flock, which the kernel frees when the process dies.
+class Maker;
 class OpenFile;
 
 class Lease {
@@ -53,6 +54,7 @@ class Lease {
   std::shared_ptr<Store> store_;
   std::string name_;
   std::unique_ptr<OpenFile> file_;
+  std::unique_ptr<Maker> maker_;
 };
 
 /// An artifact in the store.

@@ -50,13 +50,14 @@ std::unique_ptr<Lease> Lease::take(const std::shared_ptr<Store>& store) {
     lease->store_ = store;
     lease->name_ = name;
     lease->file_ = std::make_unique<OpenFile>(std::move(file));
+    lease->maker_ = std::make_unique<Maker>();
     return lease;
   }
   return nullptr;
 }
 
 Lease::~Lease() {
-  if (store_ == nullptr) return;
+  if (store_ == nullptr || !maker_->is_this_process()) return;
   const StoreFolders& folders = store_->parts().folders;
   folders.files->remove(folders.leases.get(), name_);  // while it is locked
 }

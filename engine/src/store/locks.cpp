@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "base/mounts.hpp"
+#include "store/owner.hpp"
 
 namespace ballflow {
 namespace {
@@ -15,6 +16,7 @@ class FileLock final : public KeyLock {
   FileLock(std::shared_ptr<const StoreFolders> folders, std::string name, OpenFile file)
       : folders_(std::move(folders)), name_(std::move(name)), file_(std::move(file)) {}
   ~FileLock() override {
+    if (!maker_.is_this_process()) return;
     // Removed while it is locked: whoever waits for it finds out that its file has no name any more.
     folders_->files->remove(folders_->locks.get(), name_);
   }
@@ -23,6 +25,7 @@ class FileLock final : public KeyLock {
   std::shared_ptr<const StoreFolders> folders_;
   std::string name_;
   OpenFile file_;
+  Maker maker_;
 };
 
 }  // namespace

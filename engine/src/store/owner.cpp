@@ -30,4 +30,7 @@ std::optional<Owner> owner_of(const std::string& name) {
 
 std::string host_of(const std::string& machine) { return machine.substr(0, machine.rfind('-')); }
 
+Maker::Maker() : process_(::getpid()) {}
+bool Maker::is_this_process() const { return ::getpid() == process_; }
+
 }  // namespace ballflow

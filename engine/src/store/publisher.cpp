@@ -17,10 +17,10 @@ struct Publisher::Workspace {
   int parent;
   std::string name;
   OpenFile folder;
-  pid_t owner = ::getpid();
+  Maker maker = {};
 
   ~Workspace() {
-    if (::getpid() == owner) files.remove_folder(parent, name);  // not by a fork that inherited it
+    if (maker.is_this_process()) files.remove_folder(parent, name);
   }
 };
 
@@ -90,7 +90,7 @@ std::unique_ptr<Publisher::File> Publisher::write(const std::vector<std::span<co
 
 std::shared_ptr<Publisher::Workspace> Publisher::workspace(int& error) {
   const std::lock_guard lock(workspace_mutex_);
-  if (workspace_ != nullptr && workspace_->owner == ::getpid()) return workspace_;
+  if (workspace_ != nullptr && workspace_->maker.is_this_process()) return workspace_;
   FileSystem& files = *folders_.files;
   const int tmp = folders_.tmp.get();
   const std::string name = owned_name(files);

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "store/folders.hpp"
+#include "store/owner.hpp"
 
 namespace ballflow {
 
@@ -13,7 +14,9 @@ namespace ballflow {
 class WrittenBytes {
  public:
   explicit WrittenBytes(const StoreFolders& folders) : folders_(folders) {}
-  ~WrittenBytes() { account(); }
+  ~WrittenBytes() {
+    if (maker_.is_this_process()) account();
+  }
   WrittenBytes(const WrittenBytes&) = delete;
   WrittenBytes& operator=(const WrittenBytes&) = delete;
 
@@ -23,6 +26,7 @@ class WrittenBytes {
  private:
   const StoreFolders& folders_;
   std::atomic<std::uint64_t> bytes_ = 0;  // written and not yet in the file
+  Maker maker_;
 };
 
 struct Usage {

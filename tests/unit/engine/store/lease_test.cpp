@@ -41,6 +41,26 @@ class HostFileSystem final : public FaultyFileSystem {
 
 }  // namespace
 
+TEST_F(LeaseTest, a_fork_that_ends_leaves_leases_and_locks_to_its_parent) {
+  auto store = open();
+  auto lease = Lease::take(store);
+  auto lock = store->lock(key_of(1), {});
+  ASSERT_NE(lease, nullptr);
+  ASSERT_NE(lock, nullptr);
+  const pid_t child = start([&] {
+    lease.reset();
+    lock.reset();
+    store.reset();
+  });
+  EXPECT_EQ(finish(child), 0);
+  EXPECT_EQ(collect_to(0).live_runs, 1u);
+  EXPECT_TRUE(open()->try_lock(key_of(1)).busy);
+  lease.reset();
+  lock.reset();
+  EXPECT_EQ(collect_to(0).live_runs, 0u);
+  EXPECT_NE(open()->try_lock(key_of(1)).lock, nullptr);
+}
+
 TEST_F(LeaseTest, what_a_live_run_may_use_stays) {
   const Digest stale = put(1, 2, 1, 30), recent = put(2, 2, 1, 0.5);
   const pid_t run = start([&] {
