@@ -39,7 +39,7 @@ class Parameter:
 
 
 class Node:
-    """A node of a graph; its outputs are attributes (``poles.vertices``) or items (``poles["vertices"]``)."""
+    """A node of a graph; its outputs are attributes (``voronoi.poles``) or items (``voronoi["poles"]``)."""
 
     def __init__(self, graph: "Graph", name: str, outputs: Optional[Sequence[str]]) -> None:
         self._graph = graph
@@ -70,7 +70,7 @@ class Graph:
         epsilon = g.param("epsilon", 0.3, minimum=0, unit="% of the longest bounding-box edge", doc="...")
         scan = g.Sample(file=g.param("input", kind="file", doc="a mesh"))
         poles = g.VoronoiPoles(points=scan.points)
-        g.output("vertices", poles.vertices)
+        g.output("poles", poles.poles)
         g.save("poles.json")
 
     A node type is a method: inputs and parameters are its keywords, ``name=`` names the node (else its type in
@@ -164,13 +164,13 @@ class Graph:
         if declaration is None:
             raise UsageError(_nodes.unknown(type))
         ports = {port["name"]: port for port in declaration["inputs"]}
-        known = {param["name"] for param in declaration["params"]}
+        known = {_nodes.keyword_of(declaration, param["name"]): param["name"] for param in declaration["params"]}
         inputs, params = {}, {}
         for key, value in values.items():
             if key in ports:
                 inputs[key] = value
             elif key in known:
-                params[key] = value
+                params[known[key]] = value
             else:
                 raise TypeError(f"{type} has no input or parameter {key!r}; it has {', '.join([*ports, *known])}")
         entry: dict[str, Any] = {"type": type}

@@ -171,11 +171,12 @@ def text_of(value: Any, name: str) -> str:
     if isinstance(value, str):
         return value
     if isinstance(value, (list, tuple)) or (isinstance(value, np.ndarray) and value.ndim == 1):
-        return json.dumps([_plain(entry, name) for entry in value])
+        return json.dumps([plain(entry, name) for entry in value])
     raise TypeError(f"{name}: a parameter cannot be a {type(value).__name__}")
 
 
-def _plain(value: Any, name: str) -> Any:
+def plain(value: Any, name: str) -> Any:
+    """What JSON has for a number, a boolean, a text or a path; TypeError that names the parameter otherwise."""
     value = _scalar(value)
     if value is None or not isinstance(value, (bool, int, float, str)):
         raise TypeError(f"{name}: an entry of a list cannot be a {type(value).__name__}")
@@ -187,4 +188,4 @@ def paths_of(values: Sequence[Any], name: str, files: Files) -> list[str]:
     return [file_of(value, name, files) if is_geometry(value) else text_of(value, name) for value in values]
 
 
-__all__ = ["Files", "Path", "file_of", "is_geometry", "paths_of", "text_of"]
+__all__ = ["Files", "Path", "file_of", "is_geometry", "paths_of", "plain", "text_of"]

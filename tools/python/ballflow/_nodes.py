@@ -28,6 +28,11 @@ def declaration(name: str) -> Optional[Any]:
     return declarations().get(name)
 
 
+def keyword_of(declared: Mapping[str, Any], param: str) -> str:
+    """The keyword of a parameter: its name, with "_" behind it where an input has that name."""
+    return param + "_" if any(port["name"] == param for port in declared["inputs"]) else param
+
+
 def unknown(name: str) -> str:
     """The message for a node type that is not there."""
     near = difflib.get_close_matches(name, list(declarations()), 3)
@@ -62,7 +67,8 @@ def doc_of(declared: Mapping[str, Any]) -> str:
     for param in declared["params"]:
         default = "required" if param.get("required") else f"default {json.dumps(param.get('default'))}"
         facts = [fact for fact in (param["kind"], default, param.get("unit", ""), _range(param)) if fact]
-        lines.append(f"    {param['name']} ({', '.join(facts)}): {param.get('doc', '')}")
+        name = keyword_of(declared, param["name"])
+        lines.append(f"    {name} ({', '.join(facts)}): {param.get('doc', '')}")
         for choice in param.get("choices", []):
             lines.append(f"        {choice['value']}: {choice.get('doc', '')}")
     if declared.get("cites"):

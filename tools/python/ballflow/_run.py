@@ -56,6 +56,9 @@ class NodeResult:
             raise AttributeError(f"{self.path} has no output {name!r}; it has {', '.join(self.outputs) or 'none'}")
         return self[name]
 
+    def __dir__(self) -> Iterable[str]:
+        return sorted({*super().__dir__(), *self.outputs})
+
     def __repr__(self) -> str:
         return f"<{self.path} ({self.type}): {self.status}, {self.seconds:.3g} s>"
 
@@ -188,7 +191,7 @@ class Run:
             if output is None:
                 continue  # of a run that did not reach it
             extension = _core.extension(output["type"], known.get(name, ""))
-            targets[name] = os.path.join(os.fspath(folder), name + extension)
+            targets[name] = os.path.join(os.fspath(folder), name + "." + extension)
         self._spare_inputs(targets)
         for name, target in targets.items():
             os.makedirs(os.path.dirname(target), exist_ok=True)

@@ -102,8 +102,8 @@ class Sweep(Sequence[Variant]):
         return table._repr_html_() if hasattr(table, "_repr_html_") else None  # type: ignore[no-any-return]
 
 
-def _values(value: Any, name: str, request: _Request) -> Optional[list[str]]:
-    """The texts of an axis; None where the value is one for all variants."""
+def _values(value: Any, name: str, request: _Request) -> Optional[list[Any]]:
+    """The values of an axis, as JSON has them; None where the value is one for all variants."""
     kind = request.kinds.get(name)
     if isinstance(value, (str, bytes, os.PathLike)) or not isinstance(value, (list, tuple, range)):
         return None
@@ -113,13 +113,12 @@ def _values(value: Any, name: str, request: _Request) -> Optional[list[str]]:
         return [json.dumps(list(one)) for one in value]
     if kind == "file" and isinstance(value, tuple) and _inputs.is_geometry(value):
         return None  # one mesh
-    texts = []
-    for one in value:
-        if kind == "file" and _inputs.is_geometry(one):
-            texts.append(_inputs.file_of(one, name, request.files))
-        else:
-            texts.append(_inputs.text_of(one, name))
-    return texts
+    return [
+        _inputs.file_of(one, name, request.files)
+        if kind == "file" and _inputs.is_geometry(one)
+        else _inputs.plain(one, name)
+        for one in value
+    ]
 
 
 def sweep(
@@ -147,11 +146,11 @@ def sweep(
         raise TypeError(f"graph is a name, a path or a Graph, not a {type(graph).__name__}")
     request = _Request(graph, {}, plugins)
     for name, value in {**(params or {}), **settings}.items():
-        texts = _values(value, name, request)
-        if texts is not None:
-            if not texts:
+        values = _values(value, name, request)
+        if values is not None:
+            if not values:
                 raise UsageError(f"{name}: an axis without values", "give at least one")
-            request.axes.append((name, json.dumps(texts)))
+            request.axes.append((name, json.dumps(values)))
         elif request.kinds.get(name) == "file" and isinstance(value, (str, os.PathLike)) and _is_pattern(value):
             request.inputs.append(f"{name}={os.fspath(value)}")
         else:

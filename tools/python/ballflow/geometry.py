@@ -95,7 +95,8 @@ def _function(name: str, declared: Any) -> Callable[..., Any]:
         )
     for param in declared["params"]:
         default = inspect.Parameter.empty if param.get("required") else param.get("default")
-        parameters.append(inspect.Parameter(param["name"], inspect.Parameter.KEYWORD_ONLY, default=default))
+        keyword = _nodes.keyword_of(declared, param["name"])
+        parameters.append(inspect.Parameter(keyword, inspect.Parameter.KEYWORD_ONLY, default=default))
     options = {"cache": False, "threads": 0, "memory": None, "seed": 0, "progress": None}
     taken = {parameter.name for parameter in parameters}
     for option, standard in options.items():
@@ -103,7 +104,7 @@ def _function(name: str, declared: Any) -> Callable[..., Any]:
             parameters.append(inspect.Parameter(option, inspect.Parameter.KEYWORD_ONLY, default=standard))
     signature = inspect.Signature(parameters)
     ports = {port["name"] for port in declared["inputs"]}
-    known = {param["name"] for param in declared["params"]}
+    known = {_nodes.keyword_of(declared, param["name"]): param["name"] for param in declared["params"]}
 
     def call(*args: Any, **kwargs: Any) -> Any:
         try:
@@ -114,8 +115,8 @@ def _function(name: str, declared: Any) -> Callable[..., Any]:
         return _call(
             declared,
             {key: value for key, value in values.items() if key in ports},
-            {key: value for key, value in values.items() if key in known and key not in ports},
-            {"cache": False, **{key: value for key, value in values.items() if key not in ports | known}},
+            {known[key]: value for key, value in values.items() if key in known},
+            {"cache": False, **{key: value for key, value in values.items() if key not in ports and key not in known}},
         )
 
     call.__name__ = call.__qualname__ = name
