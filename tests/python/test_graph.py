@@ -13,7 +13,7 @@ import ballflow as bf
 def inner_balls():
     g = bf.Graph(doc="The inner balls of a mesh, grown and counted.")
     epsilon = g.param("epsilon", 0.5, minimum=0, unit="% of the longest bounding-box edge", doc="growth")
-    model = g.param("input", "shape:torus", kind="file", doc="a mesh")
+    model = g.param("input", "shape:sTube", kind="file", doc="a mesh")
     scan = g.Sample(file=model)
     poles = g.VoronoiPoles(points=scan.points)
     label = g.LabelPoles(poles=poles.poles, mesh=scan.mesh)
@@ -54,7 +54,7 @@ def test_comments_are_left_out_and_texts_are_not(tmp_path):
 def test_subgraphs_maps_and_what_is_said_as_in_a_file():
     shipped = bf._session.share_folder() / "graphs"
     g = bf.Graph(file=shipped / "mine.json")
-    dmt = g.graph("dmt.json", params={"input": "shape:torus", "sampling": "surface"})
+    dmt = g.graph("dmt.json", params={"input": "shape:sTube", "sampling": "surface"})
     g.add("count", {"type": "UnionTopology", "inputs": {"diagram": g.PowerDiagram(balls=dmt.inner).diagram},
                     "params": {"stage": "inner"}})
     g.output("inner", dmt.inner)

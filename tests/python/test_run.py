@@ -42,8 +42,8 @@ def test_a_shipped_graph_runs_by_its_name_and_comes_from_the_cache_again():
 
 
 def test_digests_are_those_of_the_command_line(program):
-    run = bf.run("prune", input="shape:torus", epsilon=1.0, strategy="greedy")
-    program("run", bf._session.graph_file("prune"), "--set", "input=shape:torus", "--set", "epsilon=1", "--set",
+    run = bf.run("prune", input="shape:sTube", epsilon=1.0, strategy="greedy")
+    program("run", bf._session.graph_file("prune"), "--set", "input=shape:sTube", "--set", "epsilon=1", "--set",
             "strategy=greedy", "--cache", "other", "--report", "report.json", "--quiet")
     report = json.load(open("report.json"))
     of_program = {
@@ -53,7 +53,7 @@ def test_digests_are_those_of_the_command_line(program):
     }
     assert of_program and digests(run) == of_program
     # And the command line finds what Python has put into its cache.
-    printed = program("run", bf._session.graph_file("prune"), "--set", "input=shape:torus", "--set", "epsilon=1",
+    printed = program("run", bf._session.graph_file("prune"), "--set", "input=shape:sTube", "--set", "epsilon=1",
                       "--set", "strategy=greedy", "--json")
     assert '"status":"run"' not in printed
 
@@ -267,10 +267,10 @@ def test_the_callback_ends_a_run_and_what_is_done_stays():
         return "node_finished" not in seen
 
     with pytest.raises(bf.Cancelled) as caught:
-        bf.run("medial_axis", input="shape:torus", progress=stop_after_first)
+        bf.run("medial_axis", input="shape:sTube", progress=stop_after_first)
     done = [path for path, node in caught.value.run.nodes.items() if node.status == "run"]
     assert done and caught.value.run.status == "cancelled"
-    again = bf.run("medial_axis", input="shape:torus", until=done[0], progress=lambda event: None)
+    again = bf.run("medial_axis", input="shape:sTube", until=done[0], progress=lambda event: None)
     assert again.nodes[done[0]].status == "hit"
 
 
@@ -279,7 +279,7 @@ def test_an_exception_of_the_callback_ends_the_run_and_is_raised():
         raise ZeroDivisionError("in the callback")
 
     with pytest.raises(ZeroDivisionError, match="in the callback"):
-        bf.run("medial_axis", input="shape:torus", progress=broken)
+        bf.run("medial_axis", input="shape:sTube", progress=broken)
 
 
 def test_ctrl_c_ends_a_run():
@@ -313,7 +313,7 @@ def test_four_threads_share_a_cache():
     def work(i):
         try:
             for epsilon in (0.5, 1.0):
-                run = bf.run("prune", input="shape:torus", epsilon=epsilon, strategy="greedy")
+                run = bf.run("prune", input="shape:sTube", epsilon=epsilon, strategy="greedy")
                 results[i, epsilon] = run.balls.digest
         except BaseException as problem:
             failures.append(problem)
@@ -340,7 +340,7 @@ def test_other_threads_go_on_while_nodes_run():
 
     thread = threading.Thread(target=count)
     thread.start()
-    bf.run("medial_axis", input="shape:torus", epsilon=0.7)
+    bf.run("medial_axis", input="shape:sTube", epsilon=0.7)
     stop.set()
     thread.join()
     assert counted > 5

@@ -11,11 +11,11 @@ import ballflow as bf
 
 
 def test_lists_are_axes(program):
-    sweep = bf.sweep("prune", input="shape:torus", strategy=["greedy", "none"], epsilon=[0.5, 1.0])
+    sweep = bf.sweep("prune", input="shape:sTube", strategy=["greedy", "none"], epsilon=[0.5, 1.0])
     assert len(sweep) == 4 and {variant.status for variant in sweep} == {"ok"}
     names = [variant.name for variant in sweep]
     assert len(set(names)) == 4 and sweep[names[2]] is sweep[2]
-    alone = bf.run("prune", input="shape:torus", strategy="greedy", epsilon=1.0)
+    alone = bf.run("prune", input="shape:sTube", strategy="greedy", epsilon=1.0)
     assert not any(node.status == "run" for node in alone.nodes.values())
     same = [v for v in sweep if v.values == {"strategy": "greedy", "epsilon": 1.0}]
     assert len(same) == 1 and same[0].balls == alone.balls
@@ -59,7 +59,7 @@ def test_a_table_with_and_without_pandas(monkeypatch):
         (lambda: bf.sweep("balls", file="balls:0 0 0 1"), bf.UsageError, "nothing to sweep"),
         (lambda: bf.sweep("balls", file=[]), bf.UsageError, "without values"),
         (lambda: bf.sweep("balls", file="absent/*.csv"), bf.GraphError, "absent"),
-        (lambda: bf.sweep("prune", input="shape:torus", epsilon=[1, -1]), bf.GraphError, "at least 0"),
+        (lambda: bf.sweep("prune", input="shape:sTube", epsilon=[1, -1]), bf.GraphError, "at least 0"),
         (lambda: bf.sweep("balls", file=[object()]), TypeError, "file"),
     ],
 )
