@@ -5,6 +5,7 @@
 #   include/ballflow/*                    the boundary, the SDK and the engine
 #   include/ballflow/geometry/<family>/   options structs, functions and data types of the algorithms
 #   <libdir>/libballflow_*.a, <libdir>/cmake/ballflow/
+#   share/man/man1, share/bash-completion, share/zsh, share/fish
 #   share/ballflow/graphs, share/ballflow/schemas, share/ballflow/viewer.html (where npm is)
 include(CMakePackageConfigHelpers)
 
@@ -13,8 +14,19 @@ get_property(plugin_targets GLOBAL PROPERTY BALLFLOW_PLUGIN_TARGETS)
 get_property(viewer_target GLOBAL PROPERTY BALLFLOW_VIEWER_TARGET)
 set(programs ballflow)
 
+# Man pages and completion of shells: the program describes itself.
+set(described ${CMAKE_BINARY_DIR}/described)
+add_custom_command(OUTPUT ${described}/man/man1/ballflow.1
+  COMMAND ${CMAKE_COMMAND} -E rm -rf ${described}
+  COMMAND ballflow __share ${described}
+  DEPENDS ballflow
+  COMMENT "Writing man pages and completion"
+  VERBATIM)
+add_custom_target(ballflow_described ALL DEPENDS ${described}/man/man1/ballflow.1)
+install(DIRECTORY ${described}/ DESTINATION ${CMAKE_INSTALL_DATADIR})
+
 # What users run, without the tests.
-add_custom_target(ballflow_programs DEPENDS ${programs} ${plugin_targets} ${viewer_target})
+add_custom_target(ballflow_programs DEPENDS ${programs} ${plugin_targets} ${viewer_target} ballflow_described)
 
 install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS ${plugin_targets} LIBRARY DESTINATION lib/ballflow)

@@ -5,6 +5,7 @@
 
 #include "ballflow/text.hpp"
 #include "commands/commands.hpp"
+#include "commands/hidden.hpp"
 
 int main(int argc, char** argv) {
   using namespace ballflow;
@@ -16,18 +17,22 @@ int main(int argc, char** argv) {
   cli::Common common;
   if (argc > 0) common.program = argv[0];
   cli::Action action;
-  const cli::Parsed parsed = cli::parse_command_line(
-      argc, argv,
+  const cli::Program program = {
       "ballflow runs pipelines of typed nodes from JSON graph files and caches every intermediate result.\n"
       "Its nodes compute with unions of balls: poles, discrete medial axis, set-cover pruning,\n"
       "alpha-shapes and medial axes.\n\n"
-      "  ballflow run graphs/medial_axis.json --set input=scan.ply --out out/\n",
+      "  ballflow run medial_axis --set input=scan.ply --out out/\n",
       "Exit codes: 0 ok, 1 the answer is no (spheres --check), 2 wrong usage or graph, 3 a node failed,\n"
       "4 cancelled, 5 store or files, 6 plugin.\n"
       "The cache is $BALLFLOW_CACHE, else ~/.cache/ballflow; it may be deleted at any time.",
-      [&](const cli::Command& program) { cli::add_commands(program, common, action); });
-  if (parsed.done) return parsed.exit_code;
+      [&](const cli::Command& top) { cli::add_commands(top, common, action); }};
   try {
+    if (argc > 1 && cli::is_hidden(argv[1])) {
+      action = [&] { return cli::run_hidden(program, common, {argv + 1, argv + argc}); };
+    } else {
+      const cli::Parsed parsed = cli::parse_command_line(argc, argv, program);
+      if (parsed.done) return parsed.exit_code;
+    }
     const int status = action();
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
     throw Error(ExitCode::store, "cannot write to the standard output", "is its disk full?");

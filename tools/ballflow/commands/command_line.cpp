@@ -1,6 +1,7 @@
 #include "commands/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <sstream>
 #include <utility>
 
 #include "ballflow/error.hpp"
@@ -98,18 +99,68 @@ void Command::footer(const std::string& text) const { app_->footer(text); }
 
 void Command::callback(std::function<void()> function) const { app_->callback(std::move(function)); }
 
-Parsed parse_command_line(int argc, char** argv, const std::string& description, const std::string& footer,
-                          const std::function<void(const Command&)>& declare) {
-  CLI::App app{description, "ballflow"};
+namespace {
+
+void declare(const Program& program, CLI::App& app) {
   app.require_subcommand(1);
-  app.footer(footer);
-  declare(Command(&app));
+  app.footer(program.footer);
+  program.declare(Command(&app));
+}
+
+/// CLI11 keeps what a value may be in a text behind a colon: "TEXT:{text,csv}", "UINT:INT in [0 - 4096]".
+void read_type(const std::string& text, OptionFacts& facts) {
+  const std::size_t colon = text.find(':');
+  facts.value = text.substr(0, colon);
+  if (colon == std::string::npos) return;
+  facts.limits = text.substr(colon + 1);
+  if (facts.limits.size() < 2 || facts.limits.front() != '{' || facts.limits.back() != '}') return;
+  std::istringstream list(facts.limits.substr(1, facts.limits.size() - 2));
+  for (std::string choice; std::getline(list, choice, ',');) facts.choices.push_back(choice);
+  facts.limits.clear();
+}
+
+OptionFacts facts_of(const CLI::Option& option) {
+  OptionFacts facts;
+  facts.positional = option.get_positional();
+  if (facts.positional) facts.names.push_back(option.get_name(true));
+  for (const std::string& name : option.get_snames()) facts.names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) facts.names.push_back("--" + name);
+  facts.required = option.get_required();
+  facts.takes_value = option.get_items_expected_max() != 0;
+  facts.takes_many = option.get_items_expected_max() > 1 && option.get_allow_extra_args();
+  if (facts.takes_value) read_type(option.get_type_name(), facts);
+  facts.doc = option.get_description();
+  return facts;
+}
+
+CommandFacts facts_of(const CLI::App& app, const std::string& program_footer) {
+  CommandFacts facts;
+  facts.name = app.get_name();
+  facts.doc = app.get_description();
+  if (app.get_footer() != program_footer) facts.footer = app.get_footer();
+  for (const CLI::Option* option : app.get_options()) facts.options.push_back(facts_of(*option));
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    facts.commands.push_back(facts_of(*command, program_footer));
+  return facts;
+}
+
+}  // namespace
+
+Parsed parse_command_line(int argc, char** argv, const Program& program) {
+  CLI::App app{program.description, "ballflow"};
+  declare(program, app);
   try {
     app.parse(argc, argv);
     return {};
   } catch (const CLI::ParseError& error) {
     return {true, app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage)};
   }
+}
+
+CommandFacts command_facts(const Program& program) {
+  CLI::App app{program.description, "ballflow"};
+  declare(program, app);
+  return facts_of(app, program.footer);
 }
 
 }  // namespace ballflow::cli

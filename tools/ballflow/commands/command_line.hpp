@@ -64,13 +64,37 @@ class Command {
   CLI::App* app_;
 };
 
-/// Parses the arguments by what `declare` adds to the program. Empty when a command was found; otherwise the
-/// exit code: of --help, or of wrong usage, which was printed.
+/// The program: what its help begins and ends with, and what adds its commands.
+struct Program {
+  std::string description, footer;
+  std::function<void(const Command&)> declare;
+};
+
+/// Parses the arguments. Empty when a command was found; otherwise the exit code: of --help, or of wrong
+/// usage, which was printed.
 struct Parsed {
   bool done = false;  // nothing is left to be done
   int exit_code = 0;
 };
-Parsed parse_command_line(int argc, char** argv, const std::string& description, const std::string& footer,
-                          const std::function<void(const Command&)>& declare);
+Parsed parse_command_line(int argc, char** argv, const Program& program);
+
+/// What is known of an option, for completion and man pages.
+struct OptionFacts {
+  std::vector<std::string> names;  // "-o", "--output"; of a positional argument its name
+  bool positional = false, required = false;
+  bool takes_value = false;  // is no flag
+  bool takes_many = false;   // all words up to the next option
+  std::string value;         // what stands for the value: "DIR", "TEXT"
+  std::string limits;        // "INT in [0 - 4096]"; empty where choices say it
+  std::vector<std::string> choices;
+  std::string doc;
+};
+struct CommandFacts {
+  std::string name, doc;
+  std::string footer;  // its own; empty where it is that of the program
+  std::vector<OptionFacts> options;
+  std::vector<CommandFacts> commands;
+};
+CommandFacts command_facts(const Program& program);
 
 }  // namespace ballflow::cli

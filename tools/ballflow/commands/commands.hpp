@@ -88,6 +88,7 @@ void add_render(const Command& app, Common& common, Action& action);
 void add_spheres(const Command& app, Common& common, Action& action);
 void add_look(const Command& app, Common& common, Action& action);
 void add_exec_node(const Command& app, Common& common, Action& action);
+void add_completion(const Command& app, Common& common, Action& action);
 void add_version(const Command& app, Common& common, Action& action);
 
 /// "NAME=VALUE" of an option that is repeated; throws Error that shows how it is written.
