@@ -6,6 +6,7 @@
 #   include/ballflow/geometry/<family>/   options structs, functions and data types of the algorithms
 #   <libdir>/libballflow_*.a, <libdir>/cmake/ballflow/
 #   share/man/man1, share/bash-completion, share/zsh, share/fish
+#   share/ballflow/python/ballflow/       what runs nodes that are written in Python
 #   share/ballflow/graphs, share/ballflow/schemas, share/ballflow/viewer.html (where npm is)
 include(CMakePackageConfigHelpers)
 
@@ -39,6 +40,11 @@ foreach(folder graphs schemas)
   if(EXISTS ${PROJECT_SOURCE_DIR}/${folder})
     install(DIRECTORY ${folder} DESTINATION ${CMAKE_INSTALL_DATADIR}/ballflow)
   endif()
+endforeach()
+
+# What processes that run nodes in Python need.
+foreach(file _artifact _errors _node _source _worker)
+  install(FILES tools/python/ballflow/${file}.py DESTINATION ${CMAKE_INSTALL_DATADIR}/ballflow/python/ballflow)
 endforeach()
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/ballflow)

@@ -1,6 +1,7 @@
 // Which nodes and types exist: node libraries are found, checked and loaded here.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -26,7 +27,8 @@ class Registry {
   /// `extra`; a node or type declared twice with different content throws Error (code plugin) that names both
   /// files, and so does a node that two different files declare in equal words: nothing says that they
   /// compute the same. Of copies of one file, and of equal declarations of a type, the first found stays. A
-  /// file that is found twice is loaded once.
+  /// file that is found twice is loaded once. A file *.py of `extra` is a library of nodes in Python: see
+  /// docs/python_nodes.md.
   static std::shared_ptr<const Registry> load(const std::vector<std::string>& extra = {},
                                               const std::string& installed = default_folder());
   /// The default folder of node libraries of this executable.
@@ -39,6 +41,9 @@ class Registry {
   /// `library_file` as in NodeDeclaration. Throws Error (code plugin) that says what is wrong with the
   /// tables. They are released with the registry.
   void add_plugin(const bf_plugin& plugin, const std::string& path, const std::string& library_file = {});
+  /// Of a library each node of which has a `library_file` of its own, by id: the digest of its function.
+  void add_plugin(const bf_plugin& plugin, const std::string& path,
+                  const std::map<std::string, std::string>& digests);
 
   const NodeDeclaration* node(const std::string& id) const;
   const TypeDeclaration* type(const std::string& id) const;
@@ -49,6 +54,8 @@ class Registry {
   const std::vector<std::string>& folders() const { return folders_; }
 
  private:
+  void add_tables(const bf_plugin& plugin, const std::string& path,
+                  const std::function<std::string(const std::string&)>& library_file);
   void drop_nodes_of_unknown_types();
 
   std::map<std::string, NodeDeclaration> nodes_;

@@ -10,6 +10,8 @@
 #include "ballflow/error.hpp"
 #include "base/quote.hpp"
 #include "plugin/library_file.hpp"
+#include "plugin/python_library.hpp"
+#include "plugin/text_view.hpp"
 
 namespace ballflow {
 
@@ -22,10 +24,6 @@ struct PluginTables {
   std::vector<TypeDeclaration> types;
   std::vector<NodeDeclaration> nodes;
 };
-
-std::string_view view(bf_bytes text) {
-  return {text.data, text.data == nullptr ? 0 : static_cast<std::size_t>(text.size)};
-}
 
 [[noreturn]] void refuse(const std::string& why) { throw Error(ExitCode::plugin, why); }
 
@@ -128,11 +126,24 @@ void Registry::add(NodeDeclaration node) {
 void Registry::add(TypeDeclaration type) { add_once(types_, std::move(type), "type"); }
 
 void Registry::add_plugin(const bf_plugin& plugin, const std::string& path, const std::string& library_file) {
+  add_tables(plugin, path, [&](const std::string&) { return library_file; });
+}
+
+void Registry::add_plugin(const bf_plugin& plugin, const std::string& path,
+                          const std::map<std::string, std::string>& digests) {
+  add_tables(plugin, path, [&](const std::string& id) {
+    const auto found = digests.find(id);
+    return found == digests.end() ? std::string() : found->second;
+  });
+}
+
+void Registry::add_tables(const bf_plugin& plugin, const std::string& path,
+                          const std::function<std::string(const std::string&)>& library_file) {
   PluginTables tables = read_tables(plugin, path);
   if (plugin.release != nullptr) owners_.emplace_back(plugin.owner, plugin.release);
   for (TypeDeclaration& type : tables.types) add(std::move(type));
   for (NodeDeclaration& node : tables.nodes) {
-    node.library_file = library_file;
+    node.library_file = library_file(node.id);
     add(std::move(node));
   }
   candidates_.push_back({path, tables.name, tables.version, ""});
@@ -184,6 +195,23 @@ std::shared_ptr<const Registry> Registry::load(const std::vector<std::string>& e
     return why;
   };
 
+  // Functions name types, so their files come when all types are known.
+  std::vector<std::string> python_files;
+  const auto load_python_file = [&](const std::string& path) {
+    std::error_code error;
+    const fs::path real = fs::canonical(path, error);
+    if (!error && !seen.insert(real.string()).second) return;
+    PythonLibrary library;
+    try {
+      library = load_python(path, registry->types_, own);
+      read_tables(*library.table, path);
+    } catch (const Error& problem) {
+      if (library.table != nullptr) library.table->release(library.table->owner);
+      throw Error(ExitCode::plugin, "the node library " + path + " " + problem.what(), problem.hint());
+    }
+    registry->add_plugin(*library.table, path, library.digests);
+  };
+
   const auto load_folder = [&](const std::string& folder) {
     registry->folders_.push_back(folder);
     for (const std::string& file : libraries_in(folder)) load_file(file);
@@ -193,6 +221,10 @@ std::shared_ptr<const Registry> Registry::load(const std::vector<std::string>& e
     std::error_code error;
     if (fs::is_directory(path, error)) {
       load_folder(path);
+      continue;
+    }
+    if (is_python_file(path)) {
+      python_files.push_back(path);
       continue;
     }
     const std::string why = load_file(path);
@@ -207,6 +239,7 @@ std::shared_ptr<const Registry> Registry::load(const std::vector<std::string>& e
     }
   }
   if (!own.empty()) load_folder(own);
+  for (const std::string& path : python_files) load_python_file(path);
 
   registry->drop_nodes_of_unknown_types();
   return registry;

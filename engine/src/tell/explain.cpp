@@ -42,11 +42,19 @@ std::string spoken(const Field& field) {
   return field.path;
 }
 
+/// Whether a manifest is of a node in Python: those have its version among their libraries.
+bool is_python(const Json& manifest) {
+  return manifest.contains("libraries") && manifest.at("libraries").contains("Python");
+}
+
 void compare(const Field& field, const Json& before, const Json& now, std::vector<std::string>& out) {
   if (before.is_object() && now.is_object()) {
     for (const auto& [name, value] : before.items()) {
       const Field inner = field.inner(name);
-      if (now.contains(name)) {
+      if (inner.path == "library_file" && now.contains(name) && is_python(now)) {
+        // Not all of its file: the function and what it names.
+        if (value != now.at(name)) out.emplace_back("source of the node: other content");
+      } else if (now.contains(name)) {
         compare(inner, value, now.at(name), out);
       } else {
         out.push_back(spoken(inner) + " is gone");

@@ -30,7 +30,7 @@ from ._errors import (
 if TYPE_CHECKING:
     from . import geometry, nodes
     from ._graph import Graph
-    from ._node import node
+    from ._node import Context, Range, Unit, node
     from ._run import NodeResult, Run, run
     from ._sweep import Sweep, sweep
 
@@ -38,14 +38,16 @@ __version__: str = _core.version
 
 # What is loaded when it is first looked at, so that importing ballflow costs little.
 _LAZY = {
+    "Context": "_node",
     "Graph": "_graph",
     "NodeResult": "_run",
+    "Range": "_node",
     "Run": "_run",
     "Sweep": "_sweep",
+    "Unit": "_node",
     "run": "_run",
     "sweep": "_sweep",
     "node": "_node",
-    "progress": "_node",
 }
 _MODULES = ("geometry", "nodes")
 
@@ -54,14 +56,17 @@ __all__ = [
     "BallflowError",
     "BallflowWarning",
     "Cancelled",
+    "Context",
     "Graph",
     "GraphError",
     "NodeFailed",
     "NodeResult",
     "PluginError",
+    "Range",
     "Run",
     "StoreError",
     "Sweep",
+    "Unit",
     "UsageError",
     "geometry",
     "graphs",

@@ -3,23 +3,26 @@
 from __future__ import annotations
 
 import json
+import sys
 from typing import Any
 
 from ._artifact import Artifact
 
 
-def current() -> tuple[Any, ...]:
-    """The functions decorated with ballflow.node so far; of one id the newest."""
-    try:
-        from . import _node
-    except ImportError:
+def current() -> tuple[tuple[Any, str], ...]:
+    """The functions decorated with ballflow.node so far, of one id the newest, with their digests: in a notebook
+    what they call may be another function than before."""
+    if f"{__package__}._node" not in sys.modules:
         return ()
-    newest = {function.declaration["id"]: function for function in _node.registered()}
-    return tuple(newest.values())
+    from . import _node
+
+    newest = {function.id: function for function in _node.registered()}
+    return tuple((function, function.digest) for function in newest.values())
 
 
-def entry(function: Any) -> tuple[str, str, str, Any]:
+def entry(node: tuple[Any, str]) -> tuple[str, str, str, Any]:
     """What the engine's registry takes: declaration, file, digest, and what it calls."""
+    function, digest = node
 
     def call(inputs: Any, params: str, run: Any) -> Any:
         from . import _node
@@ -35,4 +38,4 @@ def entry(function: Any) -> tuple[str, str, str, Any]:
             return "failed", cause, hint
         return "ok", {name: artifact._core for name, artifact in outputs.items()}
 
-    return json.dumps(function.declaration), function.file, function.digest, call
+    return json.dumps(function.declaration), function.file, digest, call

@@ -1,0 +1,443 @@
+"""What a function written in Python depends on, as a digest: the part of a node's key that compiled nodes
+have from the file of their library.
+
+The digest is the SHA-256 of a set of items, sorted. An item is one of
+
+    function NAME TEXT     the function, and every function of the same file that it names, and so on
+    class NAME TEXT        likewise, whole, with what its methods name
+    value NAME TEXT        a global, a variable of an enclosing function, or a default that is plain data:
+                           None, numbers, texts, bytes, paths, compiled patterns, arrays, and tuples, lists,
+                           sets and dicts of these; by content
+    statement NAME TEXT    the statements of the file that give a name to any other object
+    module NAME TEXT       a module of one's own that one of them names (the whole package, if it is in one),
+                           and every module of one's own that this imports, and so on
+
+TEXT of code is what ``ast.unparse`` makes of it, so that comments and layout count nowhere. Modules of one's
+own are those that are neither in the standard library nor in a folder ``site-packages`` or
+``dist-packages``. Installed packages that are named count by their version, Python by its major and minor,
+and numpy always: `libraries`. What a function reads at run time (files, the environment, the clock) is not
+seen.
+"""
+
+from __future__ import annotations
+
+import ast
+import dis
+import functools
+import hashlib
+import importlib.machinery
+import importlib.metadata
+import importlib.util
+import inspect
+import json
+import linecache
+import os
+import re
+import sys
+import types
+from pathlib import Path, PurePath
+from typing import Any, Iterator, Optional
+
+import numpy as np
+
+#: Source text of files as it was when their nodes were made; a file may be edited afterwards.
+_texts: dict[str, str] = {}
+#: Content of modules of one's own as they were imported, by path, where an importer has told.
+imported: dict[str, bytes] = {}
+#: The same as it was when it was first looked at, and the module as it was then: a reload makes another spec.
+_contents: dict[str, tuple[Any, bytes]] = {}
+
+
+def remember(function: types.FunctionType) -> None:
+    """Reads the file of a function, and what it has imported, while they are what Python has just read itself.
+    They may be edited afterwards, and what runs is what was read."""
+    name = function.__code__.co_filename
+    linecache.checkcache(name)
+    _texts[name] = "".join(linecache.getlines(name, function.__globals__))
+    try:
+        _Walk(function).function(function)
+    except (ValueError, OSError):
+        pass  # said when the digest is asked for
+
+
+def _content_of(path: Path, spec: Any) -> bytes:
+    real = os.path.realpath(path)
+    if real in imported:
+        return imported[real]
+    known = _contents.get(real)
+    if known is None or known[0] is not spec:
+        known = _contents[real] = (spec, path.read_bytes())
+    return known[1]
+
+
+def _text_of(filename: str, names: dict[str, Any]) -> str:
+    if filename not in _texts:
+        _texts[filename] = "".join(linecache.getlines(filename, names))
+    return _texts[filename]
+
+
+@functools.lru_cache(maxsize=64)
+def _parsed(text: str) -> Optional[ast.Module]:
+    try:
+        return ast.parse(text)
+    except (SyntaxError, ValueError):
+        return None
+
+
+def _normal(text: bytes) -> str:
+    try:
+        return ast.unparse(ast.parse(text))
+    except (SyntaxError, ValueError):
+        return hashlib.sha256(text).hexdigest()
+
+
+def _code_text(code: types.CodeType) -> str:
+    """Of a function without a source file: its byte code, which differs between versions of Python."""
+    parts = [code.co_code.hex(), repr(code.co_names), repr(code.co_varnames), repr(code.co_freevars)]
+    for constant in code.co_consts:
+        parts.append(_code_text(constant) if isinstance(constant, types.CodeType) else repr(constant))
+    return "\n".join(parts)
+
+
+def _function_text(function: types.FunctionType) -> str:
+    code = function.__code__
+    tree = _parsed(_text_of(code.co_filename, function.__globals__))
+    found = []
+    for node in ast.walk(tree) if tree is not None else ():
+        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
+            first = min([node.lineno, *(decorator.lineno for decorator in node.decorator_list)])
+            if node.name == code.co_name and first == code.co_firstlineno:
+                found.append(ast.unparse(node))
+        elif isinstance(node, ast.Lambda) and code.co_name == "<lambda>" and node.lineno == code.co_firstlineno:
+            found.append(ast.unparse(node))
+    return "\n".join(found) if found else importlib.util.MAGIC_NUMBER.hex() + _code_text(code)
+
+
+def _globals_of(code: types.CodeType) -> set[str]:
+    """The globals that a function names, and those that functions inside it do."""
+    names = {
+        instruction.argval
+        for instruction in dis.get_instructions(code)
+        if instruction.opname in ("LOAD_GLOBAL", "LOAD_NAME", "LOAD_FROM_DICT_OR_GLOBALS")
+    }
+    for constant in code.co_consts:
+        if isinstance(constant, types.CodeType):
+            names |= _globals_of(constant)
+    return names
+
+
+def _imports_of(tree: ast.AST, package: str) -> Iterator[str]:
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            module = node.module or ""
+            if node.level:
+                parts = package.split(".")
+                start = ".".join(parts[: len(parts) - node.level + 1])
+                module = f"{start}.{module}".strip(".")
+            if module:
+                yield module
+                yield from (f"{module}.{alias.name}" for alias in node.names)
+
+
+def _plain(value: Any, depth: int = 0) -> Optional[str]:
+    """Canonical text of plain data; None for anything else."""
+    if depth > 50:
+        return None
+    kind = type(value)
+    if value is None or kind in (bool, int, str, bytes, complex) or value is Ellipsis:
+        return repr(value)
+    if kind is float:
+        return value.hex()
+    if kind in (tuple, list, set, frozenset, dict):
+        parts = [x for item in value.items() for x in item] if kind is dict else list(value)
+        texts = [_plain(part, depth + 1) for part in parts]
+        known = [text for text in texts if text is not None]
+        if len(known) != len(texts):
+            return None
+        return f"{kind.__name__}({', '.join(sorted(known) if kind in (set, frozenset) else known)})"
+    if isinstance(value, np.ndarray) and not value.dtype.hasobject:
+        digest = hashlib.sha256(np.ascontiguousarray(value).tobytes()).hexdigest()
+        return f"array({value.dtype.str}, {value.shape}, {digest})"
+    if isinstance(value, np.generic) and not isinstance(value, np.object_):
+        return f"{value.dtype.str}({value.tobytes().hex()})"
+    if isinstance(value, PurePath):
+        return f"path({str(value)!r})"
+    if kind is re.Pattern:
+        return f"pattern({value.pattern!r}, {value.flags})"
+    if kind is range or isinstance(value, np.dtype):
+        return repr(value)
+    return None
+
+
+@functools.lru_cache(maxsize=None)
+def _version_of(package: str) -> str:
+    """Of an installed package, by the name under which it is imported."""
+    try:
+        return importlib.metadata.version(package)
+    except importlib.metadata.PackageNotFoundError:
+        pass
+    for distribution in importlib.metadata.packages_distributions().get(package, ()):
+        return importlib.metadata.version(distribution)
+    return str(getattr(sys.modules.get(package), "__version__", "unknown"))
+
+
+def _installed(origin: str) -> bool:
+    return bool({"site-packages", "dist-packages"} & set(Path(origin).parts))
+
+
+class _Walk:
+    def __init__(self, root: types.FunctionType) -> None:
+        self.root = root
+        self.items: set[tuple[str, str, str]] = set()
+        self.libraries = {
+            "Python": f"{sys.version_info[0]}.{sys.version_info[1]}",
+            "numpy": np.__version__,
+        }
+        self.seen: set[int] = set()
+        self.modules: set[str] = set()
+        self.kept: list[Any] = []  # ids in `seen` stay theirs
+
+    def add(self, kind: str, name: str, text: str) -> None:
+        self.items.add((kind, name, text))
+
+    def is_new(self, value: Any) -> bool:
+        if id(value) in self.seen:
+            return False
+        self.seen.add(id(value))
+        self.kept.append(value)
+        return True
+
+    def function(self, function: types.FunctionType) -> None:
+        if not self.is_new(function):
+            return
+        text = _function_text(function)
+        self.add("function", function.__qualname__, text)
+        names = _globals_of(function.__code__)
+        tree = _parsed(text)
+        if tree is not None:
+            for name in _imports_of(tree, str(function.__globals__.get("__package__") or "")):
+                self.module(name)
+            for statement in tree.body:  # decorators are outside of the code of the function
+                for decorator in getattr(statement, "decorator_list", ()):
+                    names |= {node.id for node in ast.walk(decorator) if isinstance(node, ast.Name)}
+        self.names(names, function.__globals__)
+        cells = zip(function.__code__.co_freevars, function.__closure__ or ())
+        for name, cell in cells:
+            try:
+                self.value(name, cell.cell_contents, function.__globals__)
+            except ValueError as problem:
+                if "empty" not in str(problem):
+                    raise
+        defaults = [*(function.__defaults__ or ()), *(function.__kwdefaults__ or {}).values()]
+        for index, value in enumerate(defaults):
+            self.value(f"{function.__qualname__}.default.{index}", value, function.__globals__)
+        if isinstance(getattr(function, "__wrapped__", None), types.FunctionType):
+            self.value(function.__qualname__, function.__wrapped__, function.__globals__)
+
+    def names(self, names: set[str], scope: dict[str, Any]) -> None:
+        for name in sorted(names):
+            if name in scope:
+                self.value(name, scope[name], scope)
+
+    def value(self, name: str, value: Any, scope: dict[str, Any]) -> None:
+        text = _plain(value)
+        if text is not None:
+            self.add("value", name, text)
+            return
+        if isinstance(value, types.ModuleType):
+            self.module(value.__name__)
+            return
+        if hasattr(value, "_ballflow_function"):  # another node
+            self.value(name, value._ballflow_function, scope)
+            return
+        if isinstance(value, (staticmethod, classmethod)):
+            self.value(name, value.__func__, scope)
+            return
+        if isinstance(value, property):
+            for part in (value.fget, value.fset, value.fdel):
+                if part is not None:
+                    self.value(name, part, scope)
+            return
+        if isinstance(value, types.FunctionType):
+            if value.__globals__ is self.root.__globals__:
+                self.function(value)
+            else:
+                self.of_other_module(name, value, scope)
+            return
+        if isinstance(value, type):
+            if value.__module__ == self.root.__module__:
+                self.class_(value)
+            else:
+                self.module(value.__module__)
+            return
+        if not self.is_new(value):
+            return
+        if isinstance(value, types.MethodType):
+            self.value(name, value.__func__, scope)
+            self.value(name, value.__self__, scope)
+            return
+        if isinstance(value, functools.partial):
+            parts = [value.func, *value.args, *(x for item in sorted(value.keywords.items()) for x in item)]
+            for index, part in enumerate(parts):
+                self.value(f"{name}.{index}", part, scope)
+            return
+        if isinstance(value, (list, tuple, set, frozenset)):
+            for index, part in enumerate(value):
+                self.value(f"{name}.{index}", part, scope)
+            return
+        if isinstance(value, dict):
+            for key, part in value.items():
+                self.value(f"{name}.{key}", part, scope)
+            return
+        for wrapped in ("__wrapped__", "py_func"):  # functools.lru_cache, compilers of functions
+            inner = getattr(value, wrapped, None)
+            if isinstance(inner, types.FunctionType):
+                self.module(type(value).__module__)
+                self.value(name, inner, scope)
+                return
+        self.object(name, value, scope)
+
+    def of_other_module(self, name: str, function: types.FunctionType, scope: dict[str, Any]) -> None:
+        """Its module counts as a whole; but a decorator that came from there holds a function of ours."""
+        if not self.is_new(function):
+            return
+        self.module(function.__module__ or "")
+        if (function.__module__ or "").partition(".")[0] == "ballflow":
+            return
+        for cell in function.__closure__ or ():
+            try:
+                inner = cell.cell_contents
+            except ValueError:  # not filled yet
+                continue
+            if isinstance(inner, types.FunctionType) or _plain(inner) is not None:
+                self.value(name, inner, scope)  # anything else belongs to that module
+
+    def class_(self, cls: type) -> None:
+        if not self.is_new(cls):
+            return
+        for base in cls.__bases__:
+            self.value(base.__name__, base, self.root.__globals__)
+        functions = [m for m in vars(cls).values() if isinstance(m, types.FunctionType)]
+        own = [f for f in functions if f.__globals__ is self.root.__globals__]
+        names = {f.__code__.co_filename for f in own} or {self.root.__code__.co_filename}
+        for filename in sorted(names):
+            tree = _parsed(_text_of(filename, self.root.__globals__))
+            for node in ast.walk(tree) if tree is not None else ():
+                if not isinstance(node, ast.ClassDef) or node.name != cls.__name__:
+                    continue
+                self.add("class", cls.__qualname__, ast.unparse(node))
+                self.names(
+                    {inner.id for inner in ast.walk(node) if isinstance(inner, ast.Name)}, self.root.__globals__
+                )
+        for name, member in vars(cls).items():
+            if isinstance(member, (types.FunctionType, staticmethod, classmethod, property)):
+                self.value(f"{cls.__qualname__}.{name}", member, self.root.__globals__)
+
+    def object(self, name: str, value: Any, scope: dict[str, Any]) -> None:
+        """Neither code nor data: the statements that make it count, and the module of its class."""
+        made_by = type(value).__module__
+        module = getattr(value, "__module__", None)
+        self.module(module if callable(value) and isinstance(module, str) else made_by)
+        if made_by == "typing" or (callable(value) and made_by in ("builtins", "numpy", "types")):
+            return
+        statements = []
+        tree = _parsed(_text_of(self.root.__code__.co_filename, self.root.__globals__))
+        if scope is self.root.__globals__ and tree is not None:
+            for statement in tree.body:
+                if isinstance(statement, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)):
+                    continue
+                bound = {
+                    node.id
+                    for node in ast.walk(statement)
+                    if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
+                }
+                bound |= {
+                    alias.asname or alias.name.partition(".")[0]
+                    for node in ast.walk(statement)
+                    if isinstance(node, (ast.Import, ast.ImportFrom))
+                    for alias in node.names
+                }
+                if name in bound:
+                    statements.append(statement)
+        if not statements:
+            raise ValueError(
+                f"{self.root.__name__} uses {name}, a {type(value).__name__}, and nothing says what it is made "
+                "of, so it cannot be part of the key: make it inside the function, or in the file of the function"
+            )
+        for statement in statements:
+            self.add("statement", name, ast.unparse(statement))
+            used = {node.id for node in ast.walk(statement) if isinstance(node, ast.Name)}
+            self.names(used - {name}, self.root.__globals__)
+            for imported_name in _imports_of(statement, str(scope.get("__package__") or "")):
+                self.module(imported_name)
+
+    def module(self, name: str) -> None:
+        top = name.partition(".")[0]
+        if not name or name in self.modules or top in ("ballflow", "builtins", "__main__", "__future__"):
+            return
+        self.modules.add(name)
+        if top in sys.stdlib_module_names or name == self.root.__module__:
+            return
+        spec = self._spec(name)
+        if spec is None:
+            return
+        places = [spec.origin] if spec.has_location and spec.origin else list(spec.submodule_search_locations or ())
+        if not places or any(_installed(place) for place in places):
+            if top != "numpy":
+                self.libraries[top] = _version_of(top)
+            return
+        top_spec = spec if top == name else self._spec(top)
+        if top_spec is not None and top_spec.submodule_search_locations is not None and top_spec.origin:
+            for folder in top_spec.submodule_search_locations:
+                for path in sorted(Path(folder).rglob("*")):
+                    if path.suffix in (".py", *importlib.machinery.EXTENSION_SUFFIXES):
+                        inner = path.relative_to(folder).parts
+                        self.file("/".join([top, *inner]), ".".join([top, *inner[:-1]]), path, top_spec)
+        elif spec.origin:
+            self.file(f"{name}{Path(spec.origin).suffix}", name.rpartition(".")[0], Path(spec.origin), spec)
+
+    @staticmethod
+    def _spec(name: str) -> Optional[importlib.machinery.ModuleSpec]:
+        spec = getattr(sys.modules.get(name), "__spec__", None)
+        if spec is not None:
+            return spec  # another one after a reload
+        try:
+            return importlib.util.find_spec(name)
+        except (ImportError, ValueError, AttributeError):
+            return None  # an attribute, not a module; or what fails when it is imported
+
+    def file(self, name: str, package: str, path: Path, spec: importlib.machinery.ModuleSpec) -> None:
+        """A file of a module of one's own, and what it imports."""
+        content = _content_of(path, spec)
+        if path.suffix != ".py":
+            self.add("module", name, hashlib.sha256(content).hexdigest())
+            return
+        self.add("module", name, _normal(content))
+        try:
+            tree = ast.parse(content)
+        except (SyntaxError, ValueError):
+            return
+        for imports in _imports_of(tree, package):
+            self.module(imports)
+
+
+def digest(function: types.FunctionType, version: int) -> tuple[str, dict[str, str]]:
+    """Of a function with what it names: 64 hexadecimal digits, and the installed libraries that it uses, by
+    version. Raises ValueError where something that it names cannot be part of a key."""
+    walk = _Walk(function)
+    walk.function(function)
+    text = json.dumps(["ballflow python node 1", version, sorted(walk.items)], ensure_ascii=True)
+    return hashlib.sha256(text.encode()).hexdigest(), dict(sorted(walk.libraries.items()))
+
+
+def is_interactive(function: types.FunctionType) -> bool:
+    """Whether its file may grow while its module lives: a notebook, a prompt."""
+    return not os.path.isfile(function.__code__.co_filename)
+
+
+def location(function: Any) -> str:
+    """Where a function is, for messages: "my_nodes.py:12"."""
+    code = inspect.unwrap(function).__code__
+    return f"{os.path.basename(code.co_filename)}:{code.co_firstlineno}"
