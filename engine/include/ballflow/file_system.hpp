@@ -42,6 +42,8 @@ class FileSystem {
   virtual int status(int file, struct stat& status);
   /// Of a symbolic link itself, not of its target.
   virtual int status(int folder, const std::string& name, struct stat& status);
+  /// The permissions of an open file or folder, whatever the umask.
+  virtual int set_mode(int file, mode_t mode);
   /// 0 when entries can be made in the folder: neither its mode nor a read-only mount forbids it.
   virtual int writable(int folder);
 

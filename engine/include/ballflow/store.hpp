@@ -23,6 +23,10 @@
 // swaps the root between two runs presents a folder that fails the check. A sticky bit does not help (anyone
 // may still add files to a sticky folder), so it is no excuse.
 //
+// Behind it there may be an upstream (upstream.hpp) that many machines share. What is not here is looked for
+// there and kept here; what is written here is published there too. A full upstream or a dead server mean
+// "not shared"; they fail a run only where the upstream is the transport between jobs.
+//
 // Every function may be called from several threads at once.
 #pragma once
 
@@ -37,6 +41,7 @@
 
 #include "ballflow/artifact.hpp"
 #include "ballflow/digest.hpp"
+#include "ballflow/upstream.hpp"
 
 namespace ballflow {
 
@@ -67,6 +72,9 @@ struct ActionPut {
   /// The entry that it replaced because it named other outputs for the same key: a node whose result depends
   /// on more than its key, or a machine that computes wrongly.
   std::optional<ActionEntry> disagreed;
+  /// What the upstream has for the same key, where it names other outputs. It stays there: first come, first
+  /// kept.
+  std::optional<ActionEntry> upstream_disagreed = {};
 
   explicit operator bool() const { return stored; }
 };
@@ -92,6 +100,7 @@ using Manifests = std::map<std::string, std::string>;
 struct StoreOptions {
   std::string root;  // empty: no store, everything is a miss
   bool read_only = false;
+  UpstreamUse upstream = {};
 };
 
 /// The side effects of the store (file_system.hpp), so that tests can fake a full disk or an odd file system.
@@ -112,9 +121,9 @@ class Store {
   static std::string default_root();
 
   /// A damaged, truncated or foreign entry (another key, another format) is a miss. Its blobs may be missing.
-  /// Counts as a use of the entry, and so of its blobs.
+  /// Counts as a use of the entry, and so of its blobs. Asks the upstream when it is not here.
   std::optional<ActionEntry> find_action(const Digest& key);
-  /// The same without counting as a use.
+  /// The same without counting as a use and without the upstream.
   std::optional<ActionEntry> peek_action(const Digest& key);
   /// To be called last, after its blobs. An entry that is there and says the same (times aside) is kept; one
   /// that is damaged or names other outputs is replaced at once and as a whole: the newest computation
@@ -122,11 +131,14 @@ class Store {
   /// disk, read-only).
   ActionPut put_action(const Digest& key, const ActionEntry& entry, bool sync = false);
 
-  /// Whether a file of the right name and size is there; load() may still find it damaged.
+  /// Whether a file of the right name and size is there, or upstream; load() may still find it damaged.
   bool has_blob(const OutputEntry& output);
   /// Maps a blob, checks size, checksum, structure, type and summary. Null on a miss; a blob that is damaged
   /// is moved to quarantine first. (A blob that is what its name says, but not what `output` says, stays.)
+  /// A blob that only the upstream has is copied here first, and verified by its SHA-256.
   ArtifactPtr load(const OutputEntry& output);
+  /// Copies a blob of the upstream here unless it is; false when neither has it.
+  bool fetch_blob(const Digest& digest);
   /// Writes the blob unless a good one is there; a damaged one is replaced. `sync`: flush to the disk before
   /// it is published. `give_up` is polled every few megabytes. False when it could not be written or was
   /// given up; nothing of it is left then.
@@ -162,12 +174,19 @@ class Store {
   const std::string& why() const;  // why it is read-only or absent
   /// The first failure to write since open ("cannot write cas/...: No space left on device"), or empty.
   std::string trouble() const;
+  /// Whether results travel to other jobs through the upstream (UpstreamUse::transport).
+  bool is_transport() const;
+  /// What was odd about the upstream since open, in words: damaged files, other results than one's own,
+  /// failures to read and to write (the first of each kind).
+  std::vector<std::string> upstream_notes() const;
 
   /// For the collector, the verifier and the history, which work on the files of all rooms.
   StoreParts& parts() const { return *parts_; }
 
  private:
   Store() = default;
+  bool shares() const;
+
   std::unique_ptr<StoreParts> parts_;
 };
 

@@ -74,6 +74,10 @@ int FileSystem::status(int folder, const std::string& name, struct stat& status)
   return call([&] { return ::fstatat(folder, name.c_str(), &status, AT_SYMLINK_NOFOLLOW); });
 }
 
+int FileSystem::set_mode(int file, mode_t mode) {
+  return call([&] { return ::fchmod(file, mode); });
+}
+
 int FileSystem::writable(int folder) {
   return call([&] { return ::faccessat(folder, ".", W_OK | X_OK, AT_EACCESS); });
 }

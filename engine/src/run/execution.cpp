@@ -159,7 +159,10 @@ std::vector<OutputEntry> Runner::Impl::publish(std::size_t i, const ExecutionOut
   entry.cpu_seconds = outcome.cpu_seconds;
   for (const auto& [port, artifact] : outcome.outputs) {
     entry.outputs.push_back(output_entry(port, *artifact));
-    if (store_->read_only() || !worth_storing(artifact->file_size(), outcome.seconds)) continue;
+    // Between jobs there is no other way than the store.
+    if (!store_->is_transport() &&
+        (store_->read_only() || !worth_storing(artifact->file_size(), outcome.seconds)))
+      continue;
     const bool large = artifact->file_size() > worth_waiting_for;
     const auto give_up = [this, large] { return large && cancelled(); };
     if (give_up()) continue;
@@ -175,6 +178,11 @@ std::vector<OutputEntry> Runner::Impl::publish(std::size_t i, const ExecutionOut
   // Another process has left a result meanwhile.
   if (put.disagreed && gives_declared(put.disagreed->outputs, dag_.nodes[i].kind.outputs()) &&
       !same_digests(put.disagreed->outputs, outcome))
+    disagree(i);
+  // The upstream keeps what it has and says so in its notes; this run goes on with its own result.
+  if (options_.strict && put.upstream_disagreed &&
+      gives_declared(put.upstream_disagreed->outputs, dag_.nodes[i].kind.outputs()) &&
+      !same_digests(put.upstream_disagreed->outputs, outcome))
     disagree(i);
   return std::move(entry.outputs);
 }

@@ -21,13 +21,16 @@ bool describes(const OutputEntry& output, const Artifact& artifact) {
          output.summary == artifact.summary();
 }
 
-bool Blobs::has(const OutputEntry& output) const {
-  const std::string hex = output.digest.hex();
+bool Blobs::has(const OutputEntry& output) const { return size(output.digest) == output.bytes; }
+
+std::optional<std::uint64_t> Blobs::size(const Digest& digest) const {
+  const std::string hex = digest.hex();
   const OpenFile shard = open_shard(folders_, folders_.cas, hex);
   struct stat status {};
-  return shard.is_open() && folders_.files->status(shard.get(), rest_of(hex), status) == 0 &&
-         S_ISREG(status.st_mode) && distrust(status).empty() &&
-         static_cast<std::uint64_t>(status.st_size) == output.bytes;
+  if (!shard.is_open() || folders_.files->status(shard.get(), rest_of(hex), status) != 0 ||
+      !S_ISREG(status.st_mode) || !distrust(status).empty())
+    return std::nullopt;
+  return static_cast<std::uint64_t>(status.st_size);
 }
 
 bool Blobs::put(const Artifact& artifact, bool sync, const std::function<bool()>& give_up) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "store/folders.hpp"
 #include "store/publisher.hpp"
@@ -14,6 +15,8 @@ class Blobs {
   Blobs(const StoreFolders& folders, Publisher& publisher) : folders_(folders), publisher_(publisher) {}
 
   bool has(const OutputEntry& output) const;
+  /// Whether there is a file of this name.
+  bool has(const Digest& digest) const { return size(digest).has_value(); }
   ArtifactPtr load(const OutputEntry& output) { return fetch(output).artifact; }
   bool put(const Artifact& artifact, bool sync, const std::function<bool()>& give_up);
 
@@ -22,6 +25,7 @@ class Blobs {
     ArtifactPtr artifact;
     bool damaged = false;
   };
+  std::optional<std::uint64_t> size(const Digest& digest) const;
   Fetched fetch(const OutputEntry& output);
 
   const StoreFolders& folders_;

@@ -7,13 +7,14 @@
 #include "store/folders.hpp"
 #include "store/locks.hpp"
 #include "store/publisher.hpp"
+#include "store/shared.hpp"
 #include "store/usage.hpp"
 
 namespace ballflow {
 
 class StoreParts {
  public:
-  explicit StoreParts(std::shared_ptr<const StoreFolders> opened)
+  StoreParts(std::shared_ptr<const StoreFolders> opened, const UpstreamUse& upstream)
       : keep(std::move(opened)),
         folders(*keep),
         written(folders),
@@ -21,7 +22,8 @@ class StoreParts {
         blobs(folders, publisher),
         actions(folders, publisher),
         file_digests(folders, publisher),
-        locks(keep, [this](const std::string& what, int error) { publisher.failed(what, error); }) {}
+        locks(keep, [this](const std::string& what, int error) { publisher.failed(what, error); }),
+        shared(upstream, folders, publisher, blobs) {}
   StoreParts(const StoreParts&) = delete;
   StoreParts& operator=(const StoreParts&) = delete;
 
@@ -33,6 +35,7 @@ class StoreParts {
   Actions actions;
   FileDigests file_digests;
   KeyLocks locks;
+  SharedResults shared;
 };
 
 }  // namespace ballflow

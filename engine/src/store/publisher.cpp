@@ -9,6 +9,15 @@ namespace {
 
 constexpr mode_t file_mode = 0444, private_mode = 0700;
 
+Publisher::Source from(const std::vector<std::span<const std::byte>>& pieces) {
+  return [&pieces](const Publisher::Write& write) {
+    for (const std::span<const std::byte> piece : pieces) {
+      if (const int error = write(piece); error < 0) return error;
+    }
+    return 0;
+  };
+}
+
 }  // namespace
 
 /// tmp/<host>-<boot>-<pid>-<random>/ of this process: made when first needed, locked while it lives.
@@ -43,34 +52,45 @@ Publisher::~Publisher() = default;
 Published Publisher::publish(const OpenFile& top, const std::string& top_name, const std::string& hex,
                              const std::vector<std::span<const std::byte>>& pieces,
                              const PublishOptions& options) {
+  return publish_from(from(pieces), top, top_name, hex, options);
+}
+
+Published Publisher::publish_from(const Source& source, const OpenFile& top, const std::string& top_name,
+                                  const std::string& hex, const PublishOptions& options) {
   int error = 0;
+  std::uint64_t size = 0;
   const auto no = [&] {
     if (error != -ECANCELED) failed(top_name + '/' + shard_of(hex) + '/' + rest_of(hex), error);
     return Published::no;
   };
-  const std::unique_ptr<File> file = write(pieces, options, error);
+  const Source counted = [&](const Write& write) {
+    return source([&](std::span<const std::byte> piece) {
+      size += piece.size();
+      return write(piece);
+    });
+  };
+  const std::unique_ptr<File> file = write(counted, options, error);
   if (file == nullptr) return no();
   const OpenFile shard = open_shard(folders_, top, hex, true);
   if ((error = shard.get()) < 0) return no();
   error = file->draft.publish(shard.get(), rest_of(hex), options.replace);
   if (error == -EEXIST) return Published::there;
   if (error < 0) return no();
-  std::uint64_t size = 0;
-  for (const std::span<const std::byte> piece : pieces) size += piece.size();
   written_.add(size);
   return Published::written;
 }
 
 bool Publisher::publish(const OpenFile& folder, const std::string& name, std::string_view text) {
   int error = 0;
-  const std::unique_ptr<File> file = write({std::as_bytes(std::span(text))}, {}, error);
+  const std::vector<std::span<const std::byte>> pieces{std::as_bytes(std::span(text))};
+  const std::unique_ptr<File> file = write(from(pieces), {}, error);
   if (file == nullptr || file->draft.publish(folder.get(), name, true) < 0) return false;
   written_.add(text.size());
   return true;
 }
 
-std::unique_ptr<Publisher::File> Publisher::write(const std::vector<std::span<const std::byte>>& pieces,
-                                                  const PublishOptions& options, int& error) {
+std::unique_ptr<Publisher::File> Publisher::write(const Source& source, const PublishOptions& options,
+                                                  int& error) {
   std::unique_ptr<File> file;
   for (int attempt = 0; attempt < 2; ++attempt) {
     const std::shared_ptr<Workspace> place = workspace(error);
@@ -81,9 +101,8 @@ std::unique_ptr<Publisher::File> Publisher::write(const std::vector<std::span<co
     if (workspace_ == place) workspace_.reset();
   }
   if (error < 0) return nullptr;
-  for (const std::span<const std::byte> piece : pieces) {
-    if ((error = file->draft.write(piece, options.give_up)) < 0) return nullptr;
-  }
+  error = source([&](std::span<const std::byte> piece) { return file->draft.write(piece, options.give_up); });
+  if (error < 0) return nullptr;
   if (options.sync && (error = file->draft.sync()) < 0) return nullptr;
   return file;
 }

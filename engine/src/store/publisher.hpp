@@ -38,6 +38,13 @@ class Publisher {
   Published publish(const OpenFile& top, const std::string& top_name, const std::string& hex,
                     const std::vector<std::span<const std::byte>>& pieces, const PublishOptions& options);
 
+  /// The same from a source that writes piece by piece; what it returns when it is negative is why nothing is
+  /// published, -ECANCELED is no trouble.
+  using Write = std::function<int(std::span<const std::byte>)>;
+  using Source = std::function<int(const Write&)>;
+  Published publish_from(const Source& source, const OpenFile& top, const std::string& top_name,
+                         const std::string& hex, const PublishOptions& options);
+
   /// Writes a text under a plain name into an open folder; what is there is replaced.
   bool publish(const OpenFile& folder, const std::string& name, std::string_view text);
 
@@ -50,8 +57,7 @@ class Publisher {
   struct File;
 
   std::shared_ptr<Workspace> workspace(int& error);
-  std::unique_ptr<File> write(const std::vector<std::span<const std::byte>>& pieces,
-                              const PublishOptions& options, int& error);
+  std::unique_ptr<File> write(const Source& source, const PublishOptions& options, int& error);
   void remove_stale_workspaces();
 
   const StoreFolders& folders_;

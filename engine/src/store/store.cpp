@@ -13,7 +13,7 @@ namespace ballflow {
 
 std::shared_ptr<Store> Store::open(const StoreOptions& options, std::shared_ptr<FileSystem> files) {
   const std::shared_ptr<Store> store(new Store);
-  store->parts_ = std::make_unique<StoreParts>(open_folders(options, std::move(files)));
+  store->parts_ = std::make_unique<StoreParts>(open_folders(options, std::move(files)), options.upstream);
   return store;
 }
 
@@ -45,17 +45,41 @@ const std::string& Store::why() const { return parts_->folders.why; }
 bool Store::read_only() const { return !parts_->folders.writing; }
 std::string Store::trouble() const { return parts_->publisher.trouble(); }
 
-std::optional<ActionEntry> Store::find_action(const Digest& key) { return parts_->actions.find(key); }
+bool Store::is_transport() const { return parts_->shared.is_transport(); }
+std::vector<std::string> Store::upstream_notes() const { return parts_->shared.notes(); }
+
+std::optional<ActionEntry> Store::find_action(const Digest& key) {
+  std::optional<ActionEntry> entry = parts_->actions.find(key);
+  if (entry || !parts_->shared) return entry;
+  entry = parts_->shared.find(key);
+  if (entry) parts_->actions.put(key, *entry, false);
+  return entry;
+}
 std::optional<ActionEntry> Store::peek_action(const Digest& key) { return parts_->actions.peek(key); }
 ActionPut Store::put_action(const Digest& key, const ActionEntry& entry, bool sync) {
-  return parts_->actions.put(key, entry, sync);
+  ActionPut put = parts_->actions.put(key, entry, sync);
+  if (shares()) put.upstream_disagreed = parts_->shared.put(key, entry, sync);
+  return put;
 }
 
-bool Store::has_blob(const OutputEntry& output) { return parts_->blobs.has(output); }
-ArtifactPtr Store::load(const OutputEntry& output) { return parts_->blobs.load(output); }
-bool Store::put_blob(const Artifact& artifact, bool sync, const std::function<bool()>& give_up) {
-  return parts_->blobs.put(artifact, sync, give_up);
+bool Store::has_blob(const OutputEntry& output) {
+  return parts_->blobs.has(output) || (parts_->shared && parts_->shared.has(output));
 }
+ArtifactPtr Store::load(const OutputEntry& output) {
+  if (ArtifactPtr artifact = parts_->blobs.load(output)) return artifact;
+  return parts_->shared ? parts_->shared.load(output) : nullptr;
+}
+bool Store::fetch_blob(const Digest& digest) {
+  return parts_->blobs.has(digest) || (parts_->shared && parts_->shared.fetch(digest));
+}
+bool Store::put_blob(const Artifact& artifact, bool sync, const std::function<bool()>& give_up) {
+  const bool here = parts_->blobs.put(artifact, sync, give_up);
+  const bool there = shares() && parts_->shared.put(artifact, sync, give_up);
+  return here || there;
+}
+
+/// A store that is not written is not to be seen elsewhere either, but for jobs, which have nothing else.
+bool Store::shares() const { return parts_->shared && (!read_only() || is_transport()); }
 
 Digest Store::file_digest(const std::string& path) { return parts_->file_digests.digest_of(path); }
 

@@ -24,11 +24,19 @@ struct Common {
   std::vector<std::string> plugins;
   std::string cache, cache_size;
   bool no_cache = false;
+  // Of the commands that share results: --upstream, else $BALLFLOW_UPSTREAM.
+  std::string upstream;
+  bool upstream_read_only = false;
   // Everything below tells it what it reads; what a command writes it has to tell itself, before it begins.
   std::shared_ptr<Places> places = std::make_shared<Places>();
 
   std::shared_ptr<const Registry> registry() const;
   std::shared_ptr<Store> store() const;
+  /// The store of a command with --upstream; `use`: how it uses it, the upstream itself aside.
+  std::shared_ptr<Store> shared_store(UpstreamUse use = {}) const;
+  /// The folder or address, empty when there is none. Throws Error (code usage) when it cannot be with
+  /// --no-cache.
+  std::string upstream_place() const;
   /// Bytes the cache may have: --cache-size, else $BALLFLOW_CACHE_SIZE, else the default of `store`.
   std::uint64_t cache_limit(Store& store) const;
 };
@@ -109,7 +117,15 @@ RunRecord named_run(const Common& common, Store& store, const std::string& name,
 
 /// A file of an artifact, of a model or of balls (see model_file.hpp), or the beginning of the digest of an
 /// artifact in the cache. Throws Error when it is none of these.
-ArtifactPtr find_artifact(const Common& common, const std::string& name);
+/// `store`: where to look; null: in the cache of `common`.
+ArtifactPtr find_artifact(const Common& common, const std::string& name,
+                          const std::shared_ptr<Store>& store = {});
+
+/// --upstream and --upstream-read-only.
+void add_upstream_options(const Command& command, Common& common);
+
+/// Prints what was odd about the upstream of a store as warnings, at most ten lines.
+void tell_upstream(const Store& store);
 
 /// A flag that becomes true at the first Ctrl-C or SIGTERM after this call; the second one ends the process.
 const std::atomic<bool>& cancel_on_signals();

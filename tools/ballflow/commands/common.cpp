@@ -31,6 +31,48 @@ std::shared_ptr<Store> Common::store() const {
   return store;
 }
 
+std::string Common::upstream_place() const {
+  const char* const variable = std::getenv("BALLFLOW_UPSTREAM");
+  if (!upstream.empty() && no_cache) {
+    throw Error(ExitCode::usage, "--upstream needs the cache that --no-cache forbids",
+                "what comes from an upstream lies in the cache before it is used; leave one of them out");
+  }
+  if (no_cache) return {};
+  return !upstream.empty() ? upstream : variable != nullptr ? variable : "";
+}
+
+std::shared_ptr<Store> Common::shared_store(UpstreamUse use) const {
+  const std::string place = upstream_place();
+  if (place.empty()) return store();
+  StoreOptions options;
+  options.root = cache.empty() ? Store::default_root() : cache;
+  use.upstream = Upstream::open(place);
+  use.read_only = use.read_only || upstream_read_only;
+  options.upstream = std::move(use);
+  std::shared_ptr<Store> store = Store::open(options);
+  places->has_cache(store->root());
+  return store;
+}
+
+void add_upstream_options(const Command& command, Common& common) {
+  command
+      .option("--upstream", common.upstream,
+              "results shared with others: a folder, or http://host/path of a cache server; what is not in "
+              "the\ncache is looked for there, and results are published there (default: $BALLFLOW_UPSTREAM)")
+      .type_name("PLACE");
+  command.flag("--upstream-read-only", common.upstream_read_only,
+               "take results from the upstream and publish none");
+}
+
+void tell_upstream(const Store& store) {
+  constexpr std::size_t most_lines = 10;
+  const std::vector<std::string> notes = store.upstream_notes();
+  for (std::size_t i = 0; i < std::min(notes.size(), most_lines); ++i)
+    std::fprintf(stderr, "warning: %s\n", printable(notes[i]).c_str());
+  if (notes.size() > most_lines)
+    std::fprintf(stderr, "warning: upstream: %zu more like these\n", notes.size() - most_lines);
+}
+
 std::uint64_t Common::cache_limit(Store& store) const {
   const char* const variable = std::getenv("BALLFLOW_CACHE_SIZE");
   const bool given = !cache_size.empty();
@@ -95,7 +137,8 @@ RunRecord named_run(const Common& common, Store& store, const std::string& name,
   return run;
 }
 
-ArtifactPtr find_artifact(const Common& common, const std::string& name) {
+ArtifactPtr find_artifact(const Common& common, const std::string& name,
+                          const std::shared_ptr<Store>& given) {
   std::error_code ignored;
   if (fs::is_regular_file(name, ignored)) {
     common.places->reads("an artifact", name);
@@ -103,10 +146,15 @@ ArtifactPtr find_artifact(const Common& common, const std::string& name) {
   }
   const bool hexadecimal = name.find_first_not_of("0123456789abcdef") == std::string::npos;
   if (hexadecimal && name.size() >= 6 && name.size() <= 64) {
-    const auto store = common.store();
+    const auto store = given != nullptr ? given : common.store();
     if (store->root().empty()) {
       throw Error(ExitCode::usage, "there is no cache to look for " + name + " in: " + store->why(),
                   "name its folder with --cache or $BALLFLOW_CACHE, or give a file");
+    }
+    // Of a whole digest no folder has to be listed, and the upstream can be asked.
+    const auto whole = Digest::from_hex(name);
+    if (whole && store->fetch_blob(*whole)) {
+      if (ArtifactPtr artifact = cached_artifact(*store, *whole)) return artifact;
     }
     const std::vector<Digest> found = find_artifacts(*store, name);
     if (found.size() == 1) {

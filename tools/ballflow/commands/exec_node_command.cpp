@@ -25,11 +25,12 @@ struct ExecNodeArguments {
 
 /// Artifacts come from the cache or from anybody's file; nodes trust what they get.
 std::map<std::string, ArtifactPtr> read_inputs(const Common& common, const Registry& registry,
+                                               const std::shared_ptr<Store>& store,
                                                const ExecNodeArguments& arguments) {
   std::map<std::string, ArtifactPtr> inputs;
   for (const std::string& input : arguments.inputs) {
     const auto [port, name] = split_setting("--input", input, "balls=DIGEST");
-    ArtifactPtr artifact = find_artifact(common, name);
+    ArtifactPtr artifact = find_artifact(common, name, store);
     if (const TypeDeclaration* type = registry.type(artifact->type())) {
       const std::string broken = check_artifact(*type, *artifact);
       if (!broken.empty())
@@ -156,7 +157,8 @@ int exec_node(const Common& common, const ExecNodeArguments& arguments) {
                 arguments.body.empty() ? "name it with --body" : "");
   }
   const auto registry = common.registry();
-  const auto inputs = read_inputs(common, *registry, arguments);
+  const auto store = common.shared_store();
+  const auto inputs = read_inputs(common, *registry, store, arguments);
   const std::vector<Setting> given = settings(arguments);
   const Dag dag = node_dag(*registry, arguments, given, inputs);
   const DagNode& node = dag.nodes.back();
@@ -168,7 +170,6 @@ int exec_node(const Common& common, const ExecNodeArguments& arguments) {
       throw Error(ExitCode::usage, "--output " + output + ": " + node.kind.type() + " has no output " + port);
     files[port] = std::move(file);
   }
-  const auto store = common.store();
   common.places->reads(dag);
   for (const auto& [port, file] : files) common.places->writes("--output " + port, file);
   if (!common.no_cache && !store->why().empty())
@@ -196,6 +197,7 @@ int exec_node(const Common& common, const ExecNodeArguments& arguments) {
     }
     if (!common.no_cache) keep_outputs(*store, dag, result, runner);
   }
+  tell_upstream(*store);
   for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
     if (result.nodes[i].status != NodeStatus::failed) continue;
     std::fprintf(stderr, "%s",
@@ -235,6 +237,7 @@ void add_exec_node(const Command& app, Common& common, Action& action) {
       .between(0, 4096);
   command.option("--cache", common.cache, "cache folder").type_name("DIR");
   command.flag("--no-cache", common.no_cache, "neither read nor write a cache; inputs are files");
+  add_upstream_options(command, common);
   command.flag("--json", arguments->json,
                "print a run report (schemas/run_report.schema.json) instead of a table");
   command.footer(

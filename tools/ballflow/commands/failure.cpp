@@ -29,6 +29,7 @@ std::string surroundings(const FailedRun& run, const FailedCall& call) {
   } else if (!run.common.cache.empty() || std::getenv("BALLFLOW_CACHE") != nullptr) {
     options += " --cache " + shell_word(run.store.root());
   }
+  if (!run.common.upstream.empty()) options += " --upstream " + shell_word(run.common.upstream);
   if (run.seed != 0 && call.node->kind.uses_seed()) options += " --seed " + std::to_string(run.seed);
   return options;
 }

@@ -17,7 +17,7 @@ struct PlanArguments {
 int show_plan(const Common& common, const PlanArguments& arguments) {
   const auto registry = common.registry();
   const Dag dag = arguments.graph.load(common, *registry);
-  const auto store = common.store();
+  const auto store = common.shared_store();
   const std::vector<NodePlan> plans =
       plan(dag, *store, arguments.seed, latest_manifests(*store, arguments.graph.file()));
   std::vector<std::vector<std::string>> rows = {{"node", "", "seconds", "memory", "why"}};
@@ -51,6 +51,7 @@ int show_plan(const Common& common, const PlanArguments& arguments) {
     total +=
         "; up to " + grouped(static_cast<std::int64_t>(memory >> 20)) + " MB for one node by its estimate";
   std::printf("\n%s\n", total.c_str());
+  tell_upstream(*store);
   return 0;
 }
 
@@ -74,6 +75,7 @@ void add_plan(const Command& app, Common& common, Action& action) {
   const auto arguments = std::make_shared<PlanArguments>();
   arguments->graph.add_to(command);
   command.option("--cache", common.cache, "cache folder").type_name("DIR");
+  add_upstream_options(command, common);
   command.option("--seed", arguments->seed, "seed of the nodes that use random numbers");
   command.callback([&common, &action, arguments] {
     action = [&common, arguments] { return show_plan(common, *arguments); };

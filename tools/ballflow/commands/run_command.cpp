@@ -47,6 +47,8 @@ std::string again(const Common& common, const RunArguments& arguments) {
   line += " run " + arguments.graph.words();
   if (!common.cache.empty()) line += " --cache " + shell_word(common.cache);
   if (common.no_cache) line += " --no-cache";
+  if (!common.upstream.empty()) line += " --upstream " + shell_word(common.upstream);
+  if (common.upstream_read_only) line += " --upstream-read-only";
   if (arguments.settings.seed != 0) line += " --seed " + std::to_string(arguments.settings.seed);
   return line;
 }
@@ -195,7 +197,7 @@ int run_graph(const Common& common, const RunArguments& arguments, const AfterRu
   const std::string report_path = !arguments.report.empty() || arguments.out.empty() || dag.variants.empty()
                                       ? arguments.report
                                       : arguments.out + "/report.json";
-  const auto store = common.store();
+  const auto store = common.shared_store();
   // Before hours of computing, not after them.
   common.places->writes("--report", report_path);
   common.places->writes("--trace", arguments.trace);
@@ -249,6 +251,7 @@ int run_graph(const Common& common, const RunArguments& arguments, const AfterRu
   if (const std::string trouble = store->trouble(); !trouble.empty()) {
     std::fprintf(stderr, "warning: not everything could be cached: %s\n", trouble.c_str());
   }
+  tell_upstream(*store);
   Json report = run_report(id, dag, result);
   report["version"] = BALLFLOW_VERSION;
   report["command"] = "ballflow run " + arguments.graph.words() + arguments.settings.words();
@@ -353,6 +356,7 @@ void add_command(const Command& app, Common& common, Action& action, bool sweep)
               "(default: $BALLFLOW_CACHE_SIZE, else 20 GiB or a tenth of the disk, the smaller)")
       .type_name("SIZE");
   command.flag("--no-cache", common.no_cache, "neither read nor write a cache");
+  add_upstream_options(command, common);
   arguments->settings.add_to(command);
   command
       .option("--trace", arguments->trace,

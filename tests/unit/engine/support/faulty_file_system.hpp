@@ -18,7 +18,8 @@ class FaultyFileSystem : public FileSystem {
   std::function<int(const std::string& call)> fault;
   std::size_t write_at_most = SIZE_MAX;  // bytes per call
   std::int64_t clock_offset = 0;
-  std::uint64_t disk = 0;  // bytes of the disk; 0: of the real one
+  bool lose_reply = false;  // of a link that was made: the server sees the request again, as NFS may do
+  std::uint64_t disk = 0;   // bytes of the disk; 0: of the real one
   std::function<void()> before_read;
   std::function<void(struct stat&)> after_status;
 
@@ -62,6 +63,10 @@ class FaultyFileSystem : public FileSystem {
     const int error = enter("status");
     return error < 0 ? error : FileSystem::status(folder, name, status);
   }
+  int set_mode(int file, mode_t mode) override {
+    const int error = enter("set_mode");
+    return error < 0 ? error : FileSystem::set_mode(file, mode);
+  }
   int writable(int folder) override {
     const int error = enter("writable");
     return error < 0 ? error : FileSystem::writable(folder);
@@ -77,7 +82,9 @@ class FaultyFileSystem : public FileSystem {
   }
   int link(int from_folder, const std::string& from, int to_folder, const std::string& to) override {
     const int error = enter("link");
-    return error < 0 ? error : FileSystem::link(from_folder, from, to_folder, to);
+    if (error < 0) return error;
+    const int linked = FileSystem::link(from_folder, from, to_folder, to);
+    return linked == 0 && lose_reply ? -EEXIST : linked;
   }
   int remove(int folder, const std::string& name) override {
     const int error = enter("remove");

@@ -1,0 +1,259 @@
+// Results shared by several machines, in a folder and on a server: two caches that share nothing else.
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <signal.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "process.hpp"
+#include "test_data.hpp"
+
+namespace ballflow {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::ProcessResult;
+
+class UpstreamCli : public testing::Test {
+ protected:
+  UpstreamCli() { fs::create_directory(shared); }
+
+  /// On a machine with a cache of its own.
+  ProcessResult ballflow(const std::string& machine, std::vector<std::string> arguments,
+                         std::map<std::string, std::string> environment = {}) {
+    arguments.insert(arguments.begin(), test::binary_file("bin/ballflow"));
+    environment["BALLFLOW_CACHE"] = folder.file("cache of " + machine);
+    return test::run_process(arguments, environment);
+  }
+  ProcessResult sweep(const std::string& machine, const std::string& upstream,
+                      std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments{
+        "sweep", test::source_file("graphs/shape.json"), "--axis", "shape=torus,box", "--axis", "n=300,400",
+        "--out", folder.file("out of " + machine)};
+    if (!upstream.empty()) arguments.insert(arguments.end(), {"--upstream", upstream});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return ballflow(machine, std::move(arguments));
+  }
+  /// How many nodes of the last run of a machine have this status.
+  int count(const std::string& machine, const std::string& status) {
+    int n = 0;
+    const json report = json::parse(test::read_file(folder.file("out of " + machine + "/report.json")));
+    for (const auto& [path, node] : report.at("nodes").items()) n += node.at("status") == status ? 1 : 0;
+    return n;
+  }
+  /// The output files of a machine, without what has times in it.
+  std::map<std::string, std::string> files(const std::string& machine) {
+    std::map<std::string, std::string> found;
+    const fs::path out = folder.file("out of " + machine);
+    for (const auto& entry : fs::recursive_directory_iterator(out)) {
+      if (entry.is_regular_file() && entry.path().extension() == ".ply")
+        found[fs::relative(entry.path(), out).string()] = test::read_file(entry.path().string());
+    }
+    return found;
+  }
+
+  const test::TempFolder folder;
+  const std::string shared = folder.file("group share");
+};
+
+TEST_F(UpstreamCli, another_machine_computes_nothing_and_has_the_same_files) {
+  const ProcessResult first = sweep("a", shared);
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_EQ(first.err.find("warning"), std::string::npos) << first.err;
+  EXPECT_GT(count("a", "run"), 0);
+  const ProcessResult second = sweep("b", shared);
+  ASSERT_EQ(second.exit_code, 0) << second.err;
+  EXPECT_EQ(count("b", "run"), 0);
+  EXPECT_EQ(files("a"), files("b"));
+  EXPECT_FALSE(files("a").empty());
+}
+
+TEST_F(UpstreamCli, plan_and_exec_node_look_upstream_and_the_environment_names_it) {
+  const std::string graph = test::source_file("graphs/shape.json");
+  const std::map<std::string, std::string> environment{{"BALLFLOW_UPSTREAM", shared}};
+  const ProcessResult made =
+      ballflow("a", {"run", graph, "--set", "n=300", "--report", folder.file("a.json")}, environment);
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const ProcessResult before = ballflow("b", {"plan", graph, "--set", "n=300"});
+  EXPECT_NE(before.out.find("RUN"), std::string::npos) << before.out;
+  const ProcessResult after = ballflow("b", {"plan", graph, "--set", "n=300"}, environment);
+  EXPECT_EQ(after.exit_code, 0) << after.err;
+  EXPECT_EQ(after.out.find("RUN"), std::string::npos) << after.out;
+  EXPECT_NE(after.out.find("HIT"), std::string::npos) << after.out;
+  // A mesh that only the upstream has, by its digest.
+  std::string mesh;
+  const json report = json::parse(test::read_file(folder.file("a.json")));
+  for (const auto& [path, node] : report.at("nodes").items()) {
+    for (const auto& [port, output] : node.at("outputs").items()) {
+      if (output.at("type") == "TriangleMesh") mesh = output.at("digest");
+    }
+  }
+  ASSERT_FALSE(mesh.empty()) << report.dump(1);
+  const std::vector<std::string> call{"exec-node", "SolidTopology", "--input", "mesh=" + mesh};
+  EXPECT_EQ(ballflow("c", call).exit_code, 2);
+  const ProcessResult called = ballflow("c", call, environment);
+  EXPECT_EQ(called.exit_code, 0) << called.err;
+}
+
+TEST_F(UpstreamCli, what_cannot_be_is_said_before_anything_runs) {
+  const ProcessResult absent = sweep("a", folder.file("nowhere"));
+  EXPECT_EQ(absent.exit_code, 5);
+  EXPECT_NE(absent.err.find("there is no upstream folder"), std::string::npos) << absent.err;
+  const ProcessResult both = sweep("a", shared, {"--no-cache"});
+  EXPECT_EQ(both.exit_code, 2);
+  EXPECT_NE(both.err.find("--upstream needs the cache"), std::string::npos) << both.err;
+  EXPECT_EQ(sweep("a", "http://host/path?query").exit_code, 2);
+}
+
+TEST_F(UpstreamCli, a_read_only_upstream_gets_nothing) {
+  ASSERT_EQ(sweep("a", shared, {"--upstream-read-only"}).exit_code, 0);
+  EXPECT_TRUE(fs::is_empty(shared));
+}
+
+TEST_F(UpstreamCli, damage_costs_time_and_no_results) {
+  ASSERT_EQ(sweep("a", shared).exit_code, 0);
+  int i = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(shared)) {
+    if (!entry.is_regular_file()) continue;
+    fs::permissions(entry.path(), fs::perms::owner_write, fs::perm_options::add);
+    std::string bytes = test::read_file(entry.path().string());
+    if (++i % 2 == 0) {
+      bytes.resize(bytes.size() / 2);
+    } else {
+      bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+    }
+    test::write_file(entry.path().string(), bytes);
+  }
+  const ProcessResult second = sweep("b", shared);
+  EXPECT_EQ(second.exit_code, 0) << second.err;
+  EXPECT_NE(second.err.find("is damaged"), std::string::npos) << second.err;
+  EXPECT_EQ(files("a"), files("b"));
+  const ProcessResult third = sweep("c", shared);
+  EXPECT_EQ(third.err.find("is damaged"), std::string::npos) << third.err;
+  EXPECT_EQ(count("c", "run"), 0) << "the second machine made good what it found damaged";
+}
+
+/// nginx on loopback, with its folder; stopped with the object.
+class CacheServer {
+ public:
+  explicit CacheServer(const std::string& root) : root_(root) {
+    fs::create_directories(root_ + "/data");
+    fs::create_directories(root_ + "/tmp");
+    // A port that is free now.
+    const int probe = ::socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    ::bind(probe, reinterpret_cast<sockaddr*>(&address), size);
+    ::getsockname(probe, reinterpret_cast<sockaddr*>(&address), &size);
+    ::close(probe);
+    port_ = ntohs(address.sin_port);
+    test::write_file(root_ + "/nginx.conf",
+                     "daemon off; master_process off; pid " + root_ + "/pid;\n" + "error_log " + root_ +
+                         "/log;\nevents {}\nhttp {\n" + "access_log off; client_max_body_size 0;\n" +
+                         temp_paths() + "server { listen 127.0.0.1:" + std::to_string(port_) + "; root " +
+                         root_ + "/data;\n" +
+                         "location / { dav_methods PUT DELETE; create_full_put_path on; "
+                         "} } }\n");
+  }
+  ~CacheServer() { stop(); }
+
+  static bool is_installed() { return fs::exists("/usr/sbin/nginx"); }
+  std::string address() const { return "http://127.0.0.1:" + std::to_string(port_) + "/ballflow"; }
+  std::string data() const { return root_ + "/data/ballflow"; }
+  bool start() {
+    process_ = ::fork();
+    if (process_ == 0) {
+      const std::string conf = root_ + "/nginx.conf", log = root_ + "/log";
+      ::execl("/usr/sbin/nginx", "nginx", "-e", log.c_str(), "-c", conf.c_str(), nullptr);
+      ::_exit(127);
+    }
+    for (int tries = 0; tries < 3000; ++tries) {
+      const int probe = ::socket(AF_INET, SOCK_STREAM, 0);
+      sockaddr_in address{};
+      address.sin_family = AF_INET;
+      address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+      address.sin_port = htons(port_);
+      const bool up = ::connect(probe, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0;
+      ::close(probe);
+      if (up) return true;
+      if (::waitpid(process_, nullptr, WNOHANG) == process_) break;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    process_ = -1;
+    return false;
+  }
+  void stop() {
+    if (process_ <= 0) return;
+    ::kill(process_, SIGKILL);
+    ::waitpid(process_, nullptr, 0);
+    process_ = -1;
+  }
+
+ private:
+  std::string temp_paths() const {
+    std::string text;
+    for (const char* name : {"client_body", "proxy", "fastcgi", "uwsgi", "scgi"})
+      text += std::string(name) + "_temp_path " + root_ + "/tmp/" + name + ";\n";
+    return text;
+  }
+
+  std::string root_;
+  int port_ = 0;
+  pid_t process_ = -1;
+};
+
+TEST_F(UpstreamCli, two_workers_share_a_cache_server_and_nothing_else) {
+  if (!CacheServer::is_installed()) GTEST_SKIP() << "nginx is not installed (Debian: nginx-light)";
+  CacheServer server(folder.file("server"));
+  ASSERT_TRUE(server.start()) << test::read_file(folder.file("server/log"));
+  const ProcessResult first = sweep("a", server.address());
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_EQ(first.err.find("warning"), std::string::npos) << first.err;
+  const ProcessResult second = sweep("b", server.address());
+  ASSERT_EQ(second.exit_code, 0) << second.err;
+  EXPECT_EQ(count("b", "run"), 0);
+  EXPECT_EQ(files("a"), files("b"));
+
+  // What a flipped bit makes of a blob is a miss, and is put right.
+  const fs::path blob = fs::directory_iterator(server.data() + "/cas")->path();
+  const std::string good = test::read_file(blob.string());
+  std::string bad = good;
+  bad[bad.size() - 1] = static_cast<char>(bad[bad.size() - 1] ^ 1);
+  test::write_file(blob.string(), bad);
+  const ProcessResult third = sweep("c", server.address());
+  EXPECT_EQ(third.exit_code, 0) << third.err;
+  EXPECT_EQ(files("a"), files("c"));
+}
+
+TEST_F(UpstreamCli, a_server_that_dies_costs_speed_and_no_results) {
+  if (!CacheServer::is_installed()) GTEST_SKIP() << "nginx is not installed (Debian: nginx-light)";
+  CacheServer server(folder.file("server"));
+  ASSERT_TRUE(server.start()) << test::read_file(folder.file("server/log"));
+  ASSERT_EQ(sweep("a", server.address()).exit_code, 0);
+  server.stop();
+  const ProcessResult dead = sweep("b", server.address());
+  EXPECT_EQ(dead.exit_code, 0) << dead.err;
+  EXPECT_NE(dead.err.find("does not answer"), std::string::npos) << dead.err;
+  EXPECT_EQ(files("a"), files("b"));
+  // What a server says that keeps nothing.
+  fs::remove_all(server.data());
+  test::write_file(server.data(), "a file where a folder should be");
+  ASSERT_TRUE(server.start());
+  const ProcessResult refusing = sweep("c", server.address());
+  EXPECT_EQ(refusing.exit_code, 0) << refusing.err;
+  EXPECT_NE(refusing.err.find("the server answers with status"), std::string::npos) << refusing.err;
+  EXPECT_EQ(files("a"), files("c"));
+}
+
+}  // namespace
+}  // namespace ballflow
