@@ -1,0 +1,43 @@
+# The Debian package: `tools/package deb`, or cpack in the build folder. It holds what `cmake --install` puts under
+# /usr, finished by debian/finish.cmake.
+set(BALLFLOW_PACKAGE_CONTACT "ballflow maintainers <maintainers@ballflow.invalid>" CACHE STRING
+  "Whom the Debian package names as its maintainer: set it to your own name before you hand packages on")
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME ballflow)
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGE_CONTACT ${BALLFLOW_PACKAGE_CONTACT})
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_BALLFLOW_SOURCE ${PROJECT_SOURCE_DIR})
+set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/debian/finish.cmake)
+
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "dataflow engine for unions of balls")
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
+"Pipelines of typed nodes are read from JSON files and run in parallel, and
+every intermediate result is cached by its content. Nodes compute with
+unions of balls: polar balls of a scan, a small set of them with a proven
+bound, stable medial axes, Minkowski sums, closed surfaces, collision
+spheres of robots.
+.
+The package has the program, its node libraries and graphs, and what is
+needed to build node libraries and programs of one's own.")
+# dpkg-shlibdeps looks at every ELF file of the package, so at node libraries, too, which the program opens by itself.
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+# Embree is opened when a picture is drawn; nothing in the files says so.
+file(GLOB embree /usr/lib/*/libembree3.so.3)
+execute_process(COMMAND dpkg-query --search ${embree} OUTPUT_VARIABLE owner ERROR_QUIET)
+if(owner MATCHES "^([^:, ]+)")
+  set(CPACK_DEBIAN_PACKAGE_DEPENDS ${CMAKE_MATCH_1})
+else()
+  set(CPACK_DEBIAN_PACKAGE_DEPENDS libembree3-3)
+endif()
+# For who builds against the headers and static libraries.
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS
+  "cmake, g++, nlohmann-json3-dev, libtbb-dev, libcgal-dev, libboost-dev, libssl-dev, libzstd-dev, zlib1g-dev")
+include(CPack)
