@@ -6,7 +6,7 @@ from typing import Any, Optional
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import geometry as geometry, nodes as nodes
+from . import _core as _core, geometry as geometry, nodes as nodes
 from ._artifact import Artifact as Artifact
 from ._errors import (
     BallflowError as BallflowError,

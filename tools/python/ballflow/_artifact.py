@@ -41,7 +41,7 @@ def converted(value: Any, declaration: Declaration, where: str) -> NDArray[Any]:
     cannot hold; both name `where`.
     """
     if isinstance(value, np.ma.MaskedArray):
-        if np.ma.is_masked(value):
+        if np.any(np.ma.getmaskarray(value)):  # type: ignore[no-untyped-call]
             raise ValueError(f"{where} has masked entries; fill them or leave their rows out")
         value = value.data
     try:

@@ -35,10 +35,10 @@ class Files:
 
 
 def _is_array_like(value: Any) -> bool:
-    if isinstance(value, np.ndarray):
-        return True
+    if isinstance(value, np.ndarray) or (hasattr(value, "__array__") and not isinstance(value, np.generic)):
+        return np.ndim(value) > 0  # also tensors, and tables of pandas
     if isinstance(value, (list, tuple)) and value:
-        return any(isinstance(part, np.ndarray) and part.ndim > 0 for part in value) or (
+        return any(hasattr(part, "__array__") and np.ndim(part) > 0 for part in value) or (
             isinstance(value[0], (list, tuple)) and bool(value[0]) and not isinstance(value[0][0], str)
         )
     return False
@@ -57,21 +57,23 @@ def _parts(value: Any) -> Optional[tuple[Any, Any]]:
     if hasattr(value, "triangles") and hasattr(value, "vertices"):  # Open3D, a mesh
         return value.vertices, value.triangles
     if hasattr(value, "regular_faces") and hasattr(value, "points"):  # PyVista, where all faces are triangles
-        if getattr(value, "n_faces_strict", getattr(value, "n_faces", 0)) == 0 or _has_vertices_only(value):
+        if value.n_verts == value.n_cells:  # nothing but points
             return value.points, None
         surface = value if getattr(value, "is_all_triangles", False) else value.triangulate()
         return surface.points, np.asarray(surface.faces).reshape(-1, 4)[:, 1:]
     if hasattr(value, "points") and hasattr(value, "has_normals"):  # Open3D, a cloud
         return value.points, None
+    if hasattr(value, "triangle") and hasattr(value, "vertex"):  # Open3D, a mesh of tensors
+        return value.vertex.positions.cpu().numpy(), value.triangle.indices.cpu().numpy()
+    if hasattr(value, "point") and hasattr(value.point, "positions"):  # Open3D, a cloud of tensors
+        return value.point.positions.cpu().numpy(), None
+    if hasattr(value, "vertices"):  # trimesh, a cloud
+        return value.vertices, None
     if not _is_array_like(value):
         return None
     if isinstance(value, tuple) and len(value) == 2 and np.ndim(value[0]) == 2:
         return value[0], value[1]
     return value, None
-
-
-def _has_vertices_only(value: Any) -> bool:
-    return getattr(value, "n_verts", 0) > 0 and getattr(value, "n_verts", 0) == getattr(value, "n_cells", -1)
 
 
 def is_geometry(value: Any) -> bool:

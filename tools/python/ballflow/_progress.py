@@ -48,7 +48,9 @@ class Bar:
     """A bar of tqdm: nodes done of all that are needed, and what runs."""
 
     def __init__(self, nodes: int) -> None:
-        from tqdm.auto import tqdm
+        import importlib
+
+        tqdm = importlib.import_module("tqdm.auto").tqdm  # it may be absent, and has no types
 
         self._bar = tqdm(total=float(nodes), unit="node", leave=False, bar_format="{desc}: {percentage:3.0f}%|{bar}|")
         self._running: dict[str, float] = {}

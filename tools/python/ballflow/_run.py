@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import json
 import os
 import subprocess
@@ -9,7 +10,8 @@ import tempfile
 import warnings
 from typing import Any, Callable, Iterable, Iterator, Mapping, Optional, Sequence, Union
 
-from . import _core, _inputs, _progress, _session
+from . import _core as _core
+from . import _inputs, _progress, _session
 from ._artifact import Artifact, class_named
 from ._errors import BallflowError, BallflowWarning, Cancelled, NodeFailed, UsageError
 from ._graph import Graph
@@ -217,16 +219,14 @@ class Run:
         with tempfile.TemporaryDirectory(prefix="ballflow-") as scratch:
             page = self._page(os.path.join(scratch, "run.html"))
         try:
-            from IPython import get_ipython  # type: ignore[import]
-            from IPython.display import HTML
-
-            in_notebook = get_ipython() is not None and "IPKernelApp" in get_ipython().config
+            shell = importlib.import_module("IPython").get_ipython()
+            in_notebook = shell is not None and "IPKernelApp" in shell.config
         except ImportError:
             in_notebook = False
         if in_notebook:
             import html
 
-            return HTML(
+            return importlib.import_module("IPython.display").HTML(
                 f'<iframe srcdoc="{html.escape(page, quote=True)}" width="{width}" height="{height}" '
                 'style="border:0" sandbox="allow-scripts allow-downloads"></iframe>'
             )

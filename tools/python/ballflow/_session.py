@@ -9,7 +9,8 @@ import threading
 from pathlib import Path
 from typing import Any, Iterable, Optional, Sequence, Union
 
-from . import _artifact, _core
+from . import _artifact
+from . import _core as _core
 from ._errors import BallflowError, UsageError
 
 PathLike = Union[str, "os.PathLike[str]"]
@@ -149,4 +150,8 @@ def graph_file(graph: PathLike) -> str:
     )
 
 
-_artifact.Artifact._seal = staticmethod(lambda name, arrays: base_registry().make(name, arrays))
+def _seal(name: str, arrays: dict[str, Any]) -> Any:
+    return base_registry().make(name, arrays)
+
+
+_artifact.Artifact._seal = staticmethod(_seal)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import json
 import os
 import warnings
@@ -36,7 +37,8 @@ class Variant:
         """The summary of an output, without loading it; empty where it was not made."""
         path, port = self._places[output]
         made = self._run.report["nodes"][path]["outputs"].get(port)
-        return made["summary"] if made is not None else {}
+        summary: Mapping[str, Any] = made["summary"] if made is not None else {}
+        return summary
 
     def __repr__(self) -> str:
         return f"<{self.name}: {self.status}>"
@@ -84,7 +86,7 @@ class Sweep(Sequence[Variant]):
     def table(self) -> Any:
         """The rows as a pandas DataFrame where pandas is installed, else as they are."""
         try:
-            import pandas  # type: ignore[import]
+            pandas = importlib.import_module("pandas")
         except ImportError:
             return self.rows()
         return pandas.DataFrame(self.rows())
@@ -99,7 +101,7 @@ class Sweep(Sequence[Variant]):
 
     def _repr_html_(self) -> Optional[str]:
         table = self.table()
-        return table._repr_html_() if hasattr(table, "_repr_html_") else None  # type: ignore[no-any-return]
+        return table._repr_html_() if hasattr(table, "_repr_html_") else None
 
 
 def _values(value: Any, name: str, request: _Request) -> Optional[list[Any]]:
@@ -108,9 +110,8 @@ def _values(value: Any, name: str, request: _Request) -> Optional[list[Any]]:
     if isinstance(value, (str, bytes, os.PathLike)) or not isinstance(value, (list, tuple, range)):
         return None
     if kind in ("list", "files"):  # every value is a list itself
-        if not value or not all(isinstance(one, (list, tuple)) for one in value):
-            return None
-        return [json.dumps(list(one)) for one in value]
+        lists = [list(one) for one in value if isinstance(one, (list, tuple))]
+        return [json.dumps(one) for one in lists] if lists and len(lists) == len(value) else None
     if kind == "file" and isinstance(value, tuple) and _inputs.is_geometry(value):
         return None  # one mesh
     return [
