@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import sys
 
+import numpy as np
 import open3d
 
 import ballflow as bf
@@ -19,8 +20,9 @@ def main(path: str) -> None:
         cloud = open3d.geometry.TriangleMesh.create_torus().sample_points_poisson_disk(1500)
     run = bf.run("reconstruct", input=cloud, progress=True)
     surface = run.mesh
-    mesh = open3d.geometry.TriangleMesh(
-        open3d.utility.Vector3dVector(surface.vertices), open3d.utility.Vector3iVector(surface.triangles)
+    mesh = open3d.geometry.TriangleMesh(  # Open3D wants arrays that it may change; those of artifacts are read-only
+        open3d.utility.Vector3dVector(np.array(surface.vertices)),
+        open3d.utility.Vector3iVector(np.array(surface.triangles)),
     )
     print(f"{len(surface.triangles)} triangles, closed: {mesh.is_watertight()}")
 
