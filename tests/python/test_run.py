@@ -5,6 +5,7 @@ from __future__ import annotations
 import gc
 import json
 import os
+import shlex
 import shutil
 import signal
 import threading
@@ -56,6 +57,18 @@ def test_digests_are_those_of_the_command_line(program):
     printed = program("run", bf._session.graph_file("prune"), "--set", "input=shape:sTube", "--set", "epsilon=1",
                       "--set", "strategy=greedy", "--json")
     assert '"status":"run"' not in printed
+
+
+def test_the_report_has_the_command_that_repeats_the_run(program, tmp_path):
+    (tmp_path / "a b.csv").write_text("x,y,z,r\n0,0,0,1\n")
+    run = bf.run("balls", {"diagram.tolerance": "polar"}, file=tmp_path / "a b.csv", seed=3)
+    words = shlex.split(run.report["command"])
+    assert words[:2] == ["ballflow", "run"]
+    program(*words[1:], "--report", "again.json", "--cache", "other", "--quiet")
+    again = json.load(open("again.json"))
+    assert again["nodes"]["load"]["outputs"] == run.report["nodes"]["load"]["outputs"]
+    assert "command" not in bf.run("dmt_points", input=np.random.default_rng(5).normal(size=(50, 3))).report
+    program("report", run.id)
 
 
 def test_a_mesh_of_arrays_is_the_mesh_of_a_file(box, tmp_path):

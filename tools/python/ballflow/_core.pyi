@@ -84,5 +84,6 @@ def run(
     store: Store,
     settings: RunSettings,
     cache_size: str,
+    command: str,
     progress: Optional[Callable[[dict[str, Any]], Any]],
 ) -> Run: ...

@@ -26,6 +26,11 @@ class Files:
         self._folder: Optional[str] = None
         self._count = 0
 
+    @property
+    def used(self) -> bool:
+        """Whether there are any."""
+        return self._folder is not None
+
     def path(self, suffix: str) -> str:
         if self._folder is None:
             self._folder = tempfile.mkdtemp(prefix="ballflow-")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import json
 import os
+import shlex
 import subprocess
 import tempfile
 import warnings
@@ -273,6 +274,8 @@ class _Request:
 
     def __init__(self, graph: GraphLike, values: Mapping[str, Any], plugins: Sequence[PathLike]) -> None:
         self.registry = _session.registry(plugins)
+        self.base = _session.base_registry(plugins)
+        self.plugins = list(plugins)
         self.text: Optional[str] = None
         if isinstance(graph, Graph):
             self.text = graph.to_json()
@@ -314,6 +317,20 @@ class _Request:
             raise TypeError(f"{name}: this artifact was not made by the engine")
         return value._core
 
+    def command(self, options: Any) -> str:
+        """The command line that repeats the run; empty where arrays or functions of this process have a part in it."""
+        if self.text is not None or self.given or self.files.used or self.registry is not self.base:
+            return ""
+        words = ["ballflow", "run", self.file]
+        words += [part for plugin in self.plugins for part in ("--plugin", os.fspath(plugin))]
+        words += [part for name, value in self.settings for part in ("--set", f"{name}={value}")]
+        words += [part for name, value in self.axes for part in ("--axis", f"{name}={value}")]
+        words += ["--inputs", *self.inputs] if self.inputs else []
+        words += ["--seed", str(options.seed)] if options.seed else []
+        words += [part for name in options.until for part in ("--until", name)]
+        words += [part for name in options.only for part in ("--only", name)]
+        return shlex.join(words)
+
     def load(self, store: Any) -> Any:
         plan = _core.load_plan(self.registry, self.file, self.text, self.settings, self.axes, self.inputs,
                                self.given, store)
@@ -346,7 +363,9 @@ def _settings(threads: int, memory: Union[str, int, None], seed: int, keep_going
     return settings
 
 
-def _execute(plan: Any, store: Any, settings: Any, cache_size: Optional[str], progress: Progress) -> Any:
+def _execute(
+    plan: Any, store: Any, settings: Any, cache_size: Optional[str], progress: Progress, command: str
+) -> Any:
     display: Optional[_progress.Display] = None
     callback: Optional[Callable[[dict[str, Any]], Any]] = None
     if progress is True:
@@ -357,7 +376,7 @@ def _execute(plan: Any, store: Any, settings: Any, cache_size: Optional[str], pr
     elif progress not in (None, False):
         raise TypeError("progress is True, False, or a function that gets events")
     try:
-        return _core.run(plan, store, settings, cache_size or "", callback)
+        return _core.run(plan, store, settings, cache_size or "", command, callback)
     finally:
         if display is not None:
             display.close()
@@ -424,8 +443,8 @@ def run(
     plan = request.load(store)
     if plan.variants:
         raise UsageError(f"{request.file} is a sweep", "use ballflow.sweep()")
-    core = _execute(plan, store, _settings(threads, memory, seed, keep_going, strict, until, only, force),
-                    cache_size, progress)
+    options = _settings(threads, memory, seed, keep_going, strict, until, only, force)
+    core = _execute(plan, store, options, cache_size, progress, request.command(options))
     result = Run(plan, core, request.files, cache, plugins)
     _tell(result, 3)
     if result.status == "cancelled":

@@ -161,7 +161,7 @@ def sweep(
     if not plan.variants:
         raise UsageError(f"{request.file}: nothing to sweep over", "give a list of values: epsilon=[0.1, 0.3]")
     options = _settings(threads, memory, seed, True, strict, None, None, None)
-    core = _execute(plan, store, options, cache_size, progress)
+    core = _execute(plan, store, options, cache_size, progress, request.command(options))
     run = Run(plan, core, request.files, cache, plugins)
     _tell(run, 3)
     if run.status == "cancelled":

@@ -265,11 +265,11 @@ PYBIND11_MODULE(_core, module) {
       .def("artifact", [](FinishedRun& run, const std::string& path, const std::string& port) {
         return Handle{run.artifact(path, port)};
       });
-  module.def("run",
-             [](const std::shared_ptr<Plan>& plan, const std::shared_ptr<Store>& store,
-                const RunSettings& settings, const std::string& cache_size, const py::object& progress) {
-               return std::make_shared<FinishedRun>(plan, store, settings, cache_size, progress);
-             });
+  module.def("run", [](const std::shared_ptr<Plan>& plan, const std::shared_ptr<Store>& store,
+                       const RunSettings& settings, const std::string& cache_size, const std::string& command,
+                       const py::object& progress) {
+    return std::make_shared<FinishedRun>(plan, store, settings, cache_size, command, progress);
+  });
 
   py::class_<NodeRun, std::shared_ptr<NodeRun>>(module, "NodeRun")
       .def("cancelled", &NodeRun::cancelled, py::call_guard<py::gil_scoped_release>())

@@ -150,7 +150,7 @@ RunOptions options_of(const RunSettings& settings, const Dag& dag) {
 
 FinishedRun::FinishedRun(std::shared_ptr<const Plan> plan, std::shared_ptr<Store> store,
                          const RunSettings& settings, const std::string& collect_above,
-                         const py::object& progress)
+                         const std::string& command, const py::object& progress)
     : plan_(std::move(plan)), store_(std::move(store)), id_(new_run_id(plan_->dag.file)) {
   const Dag& dag = plan_->dag;
   RunOptions options = options_of(settings, dag);
@@ -195,6 +195,7 @@ FinishedRun::FinishedRun(std::shared_ptr<const Plan> plan, std::shared_ptr<Store
     const RunResult& result = *ended;
     Json report = run_report(id_, dag, result);
     report["version"] = BALLFLOW_VERSION;
+    if (!command.empty()) report["command"] = command;
     report_ = report.dump(-1, ' ', false, Json::error_handler_t::replace);
     recorded_ = save_run(*store_, id_, manifests_of(dag, result), report);
     keep_within(*store_, limit);

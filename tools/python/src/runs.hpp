@@ -38,9 +38,10 @@ class FinishedRun {
   /// None) is called by that thread with a dict for every event, and ends the run by returning False. So do a
   /// signal handler that raises, and `progress` when it raises: what is finished is kept, and the exception
   /// goes on to the caller. Everything else that goes wrong in nodes is in the report.
-  /// `collect_above`: bytes that the cache may have, as --cache-size says it; empty: the default.
+  /// `collect_above`: bytes that the cache may have, as --cache-size says it; empty: the default. `command`:
+  /// a command line that repeats the run, for its report; empty where there is none.
   FinishedRun(std::shared_ptr<const Plan> plan, std::shared_ptr<Store> store, const RunSettings& settings,
-              const std::string& collect_above, const py::object& progress);
+              const std::string& collect_above, const std::string& command, const py::object& progress);
   ~FinishedRun();
   FinishedRun(const FinishedRun&) = delete;
   FinishedRun& operator=(const FinishedRun&) = delete;
