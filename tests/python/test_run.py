@@ -199,7 +199,7 @@ def test_an_input_is_never_overwritten(tmp_path):
     "call, kind, words",
     [
         (lambda: bf.run("medial_axes"), bf.UsageError, "medial_axis"),
-        (lambda: bf.run("absent/graph.json"), bf.UsageError, "no graph"),
+        (lambda: bf.run("absent/graph.json"), bf.BallflowError, "absent/graph.json"),
         (lambda: bf.run(17), TypeError, "a name, a path or a Graph"),
         (lambda: bf.run("balls", fill=3), bf.GraphError, "file"),
         (lambda: bf.run("prune", input="shape:torus", epsilon=-1), bf.GraphError, "at least 0"),

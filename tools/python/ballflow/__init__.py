@@ -82,7 +82,7 @@ def graphs() -> dict[str, str]:
     """The graphs that come with ballflow: name and what each is for."""
     from . import _session
 
-    return {name: _core.outline(str(path))[0] for name, path in _session.shipped_graphs().items()}
+    return {name: doc for name, doc, _ in _core.shipped_graphs(_session.graphs_folder())}
 
 
 def load(path: Any) -> Artifact:

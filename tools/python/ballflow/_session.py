@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import json
 import os
 import threading
@@ -11,7 +10,7 @@ from typing import Any, Iterable, Optional, Sequence, Union
 
 from . import _artifact
 from . import _core as _core
-from ._errors import BallflowError, UsageError
+from ._errors import BallflowError
 
 PathLike = Union[str, "os.PathLike[str]"]
 #: A folder; None for the cache of the command line; False for none.
@@ -125,29 +124,14 @@ def store(cache: Cache = None) -> Any:
         return found
 
 
-def shipped_graphs() -> dict[str, Path]:
-    """The graphs that come with ballflow, by name: "medial_axis", "experiments/table_3_3"."""
-    graphs = share_folder() / "graphs"
-    found = {}
-    for pattern in ("*.json", "experiments/*.json"):
-        for path in sorted(graphs.glob(pattern)):
-            found[path.relative_to(graphs).with_suffix("").as_posix()] = path
-    return found
+def graphs_folder() -> str:
+    """The folder of the graphs that come with ballflow."""
+    return str(share_folder() / "graphs")
 
 
 def graph_file(graph: PathLike) -> str:
-    """The file of a graph: a path, or the name of a shipped one. A file that is there wins."""
-    text = os.fspath(graph)
-    if os.path.isfile(text):
-        return text
-    shipped = shipped_graphs()
-    if text in shipped:
-        return str(shipped[text])
-    near = difflib.get_close_matches(text, list(shipped), 3)
-    raise UsageError(
-        f"there is no graph {text!r}: no file, and none that comes with ballflow",
-        f"did you mean {' or '.join(map(repr, near))}?" if near else "ballflow.graphs() lists those that come with it",
-    )
+    """The file of a graph: a path, or the name of one that comes with ballflow. A file that is there wins."""
+    return _core.find_graph(os.fspath(graph), graphs_folder())
 
 
 def _seal(name: str, arrays: dict[str, Any]) -> Any:

@@ -8,6 +8,7 @@
 #include "ballflow/error.hpp"
 #include "ballflow/report.hpp"
 #include "ballflow/schema.hpp"
+#include "ballflow/shipped_graphs.hpp"
 #include "export/export.hpp"
 #include "python_nodes.hpp"
 #include "runs.hpp"
@@ -242,6 +243,13 @@ PYBIND11_MODULE(_core, module) {
         for (const Diagnostic& warning : plan.dag.warnings) all.append(py::str(warning.text()));
         return all;
       });
+  module.def("find_graph", &find_graph);
+  module.def("shipped_graphs", [](const std::string& folder) {
+    py::list all;
+    for (const ShippedGraph& graph : shipped_graphs(folder))
+      all.append(py::make_tuple(graph.name, graph.doc, graph.file));
+    return all;
+  });
   module.def("outline", &outline_of, py::arg("file"), py::arg("text") = py::none());
   module.def("load_plan", &load_plan, py::arg("registry"), py::arg("file"), py::arg("text"),
              py::arg("settings"), py::arg("axes"), py::arg("inputs"), py::arg("given"), py::arg("store"));
