@@ -149,7 +149,7 @@ def _plain(value: Any, depth: int = 0) -> Optional[str]:
     if value is None or kind in (bool, int, str, bytes, complex) or value is Ellipsis:
         return repr(value)
     if kind is float:
-        return value.hex()
+        return str(value.hex())
     if kind in (tuple, list, set, frozenset, dict):
         parts = [x for item in value.items() for x in item] if kind is dict else list(value)
         texts = [_plain(part, depth + 1) for part in parts]
@@ -164,7 +164,7 @@ def _plain(value: Any, depth: int = 0) -> Optional[str]:
         return f"{value.dtype.str}({value.tobytes().hex()})"
     if isinstance(value, PurePath):
         return f"path({str(value)!r})"
-    if kind is re.Pattern:
+    if isinstance(value, re.Pattern):
         return f"pattern({value.pattern!r}, {value.flags})"
     if kind is range or isinstance(value, np.dtype):
         return repr(value)
@@ -233,8 +233,9 @@ class _Walk:
         defaults = [*(function.__defaults__ or ()), *(function.__kwdefaults__ or {}).values()]
         for index, value in enumerate(defaults):
             self.value(f"{function.__qualname__}.default.{index}", value, function.__globals__)
-        if isinstance(getattr(function, "__wrapped__", None), types.FunctionType):
-            self.value(function.__qualname__, function.__wrapped__, function.__globals__)
+        wrapped = getattr(function, "__wrapped__", None)
+        if isinstance(wrapped, types.FunctionType):
+            self.value(function.__qualname__, wrapped, function.__globals__)
 
     def names(self, names: set[str], scope: dict[str, Any]) -> None:
         for name in sorted(names):
@@ -400,7 +401,7 @@ class _Walk:
 
     @staticmethod
     def _spec(name: str) -> Optional[importlib.machinery.ModuleSpec]:
-        spec = getattr(sys.modules.get(name), "__spec__", None)
+        spec: Optional[importlib.machinery.ModuleSpec] = getattr(sys.modules.get(name), "__spec__", None)
         if spec is not None:
             return spec  # another one after a reload
         try:

@@ -27,6 +27,7 @@ import faulthandler
 import importlib.abc
 import importlib.machinery
 import importlib.util
+import io
 import json
 import linecache
 import mmap
@@ -143,7 +144,7 @@ def make_package() -> types.ModuleType:
             raise AttributeError(f"module 'ballflow' has no attribute {name!r}")
         return _artifact.class_named(name) or Absent(name)
 
-    package.__getattr__ = look_up  # type: ignore[method-assign]
+    setattr(package, "__getattr__", look_up)
     return package
 
 
@@ -277,7 +278,7 @@ def run(node: Any, request: dict[str, Any], file: Optional[int], channel: Channe
             warnings.simplefilter("always")  # what is warned of does not depend on what ran here before
             for category in (DeprecationWarning, PendingDeprecationWarning, ImportWarning, ResourceWarning):
                 warnings.simplefilter("ignore", category)
-            warnings.showwarning = show
+            setattr(warnings, "showwarning", show)
             described, outputs = write_artifacts(node.call(inputs, request["params"], told))
         answer = {"outputs": described}
     except BaseException as problem:
@@ -293,8 +294,9 @@ def run(node: Any, request: dict[str, Any], file: Optional[int], channel: Channe
 def main() -> None:
     end_with(int(sys.argv[1]))
     sys.argv[1:] = []
-    sys.stdout.reconfigure(encoding="utf-8", errors="backslashreplace", line_buffering=True)
-    sys.stderr.reconfigure(encoding="utf-8", errors="backslashreplace", line_buffering=True)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(encoding="utf-8", errors="backslashreplace", line_buffering=True)
     faulthandler.enable()
     channel = Channel(CHANNEL)
     setup, _ = channel.receive()

@@ -284,7 +284,8 @@ PYBIND11_MODULE(_core, module) {
       .def("progress", &NodeRun::progress, py::call_guard<py::gil_scoped_release>())
       .def("log", &NodeRun::log, py::call_guard<py::gil_scoped_release>())
       .def_property_readonly("seed", &NodeRun::seed)
-      .def_property_readonly("threads", &NodeRun::threads);
+      .def_property_readonly("threads", &NodeRun::threads)
+      .def_property_readonly("memory_bytes", &NodeRun::memory_bytes);
 }
 
 }  // namespace ballflow::python

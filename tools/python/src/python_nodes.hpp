@@ -22,6 +22,11 @@ class NodeRun {
   void log(const std::string& text, bool warning) const;
   std::uint64_t seed() const { return run_ == nullptr ? 0 : run_->seed; }
   unsigned threads() const { return run_ == nullptr ? 1 : run_->max_threads; }
+  std::uint64_t memory_bytes() const {
+    return run_ == nullptr || run_->struct_size < BALLFLOW_SIZE_UP_TO(bf_run, memory_bytes)
+               ? 0
+               : run_->memory_bytes;
+  }
 
  private:
   const bf_run* run_;
