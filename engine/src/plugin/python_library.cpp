@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
@@ -230,7 +231,8 @@ class PythonFile {
   }
 
   /// What a node wants to know, and a file with its inputs.
-  static std::string request(const bf_run& run, const Json& declaration, Descriptor& file) {
+  static std::string request(const bf_run& run, const Json& declaration, std::uint64_t number,
+                             Descriptor& file) {
     Json inputs = Json::object();
     ArraysToShare arrays;
     for (const Json& port : declaration.value("inputs", Json::array())) {
@@ -244,7 +246,8 @@ class PythonFile {
       }
     }
     file = arrays.file();
-    return dumped({{"run", std::string(view(run.node))},
+    return dumped({{"number", number},
+                   {"run", std::string(view(run.node))},
                    {"params", Json::parse(view(run.params), nullptr, false)},
                    {"seed", run.seed},
                    {"threads", run.max_threads},
@@ -265,7 +268,8 @@ class PythonFile {
 
   int talk(Child& child, const bf_run& run) {
     Descriptor inputs;
-    const std::string wanted = request(run, declaration_of(view(run.node)), inputs);
+    const std::uint64_t number = ++executions_;
+    const std::string wanted = request(run, declaration_of(view(run.node)), number, inputs);
     child.send(wanted, inputs.get());  // where it is not there any more, that is seen below
     inputs.close();
     for (;;) {
@@ -273,15 +277,15 @@ class PythonFile {
       tell(run, child, false);
       if (line) {
         const Json said = Json::parse(*line, nullptr, false);
-        if (said.is_object() && said.contains("outputs")) {
-          tell(run, child, true);
-          return hand_over(run, said.at("outputs"), child.take_file());
+        const bool with_file = said.is_object() && said.contains("outputs");
+        Descriptor outputs = with_file ? child.take_file() : Descriptor();
+        // Threads of a function may go on when it has returned: what they say then is nobody's.
+        if (said.is_object() && said.value("of", Json()) == Json(number)) {
+          if (with_file || said.contains("error")) tell(run, child, true);
+          if (with_file) return hand_over(run, said.at("outputs"), std::move(outputs));
+          if (said.contains("error")) return failed(run, said);
+          heard(run, said);
         }
-        if (said.is_object() && said.contains("error")) {
-          tell(run, child, true);
-          return failed(run, said);
-        }
-        heard(run, said);
       }
       if (run.cancelled(run.host) != 0) {
         child.end(time_to_end_ms);
@@ -292,7 +296,7 @@ class PythonFile {
   }
 
   static void heard(const bf_run& run, const Json& said) {
-    if (said.is_object() && said.contains("progress") && said.at("progress").is_number()) {
+    if (said.contains("progress") && said.at("progress").is_number()) {
       run.progress(run.host, std::clamp(said.at("progress").get<double>(), 0.0, 1.0));
     }
     for (const auto& [name, level] : {std::pair{"log", BF_INFO}, std::pair{"warn", BF_WARNING}}) {
@@ -343,6 +347,7 @@ class PythonFile {
   std::vector<bf_node> entries_;
   std::vector<const bf_node*> nodes_;
   bf_plugin table_{};
+  std::atomic<std::uint64_t> executions_ = 0;
   std::mutex mutex_;
   std::unique_ptr<Child> first_;  // that has said what there is
   std::vector<std::unique_ptr<Child>> waiting_;

@@ -237,11 +237,20 @@ def NoNumber() -> bf.Balls:
 def TooFew():
     return {"a": bf.Balls(np.zeros((1, 3)), [1])}
 
+def write(text):
+    names = os.listdir("/proc/self/fd")
+    channel = next(int(n) for n in names if os.path.realpath(f"/proc/self/fd/{n}").split("/")[-1].startswith("socket:"))
+    os.write(channel, text)
+
+radii = b'{"name": "radii", "dtype": "f64", "shape": [9], "offset": 0}'
+
 @bf.node
 def Rubbish() -> bf.Balls:
-    os.write(3, b"rubbish\n")
-    os.write(3, b'{"outputs": {"balls": {"arrays": [{"name": "radii", "dtype": "f64", "shape": [9], "offset": 0}]}}}\n')
-    return bf.Balls(np.zeros((3, 3)), [1, 2, 3])
+    write(b'rubbish\n[1]\n{"of": 0, "outputs": 3}\n{"of": 1000000, "outputs": {}}\n{"progress": 1}\n')
+    for number in range(1, 30):  # one of them is its own
+        write(b'{"of": %d, "outputs": {"balls": {"arrays": [%s]}}}\n' % (number, radii))
+    while True:
+        pass
 
 @bf.node
 def Fine() -> bf.Balls:

@@ -5,7 +5,7 @@ namespace ballflow::cli {
 void add_commands(const Command& program, Common& common, Action& action) {
   program
       .option("--plugin", common.plugins,
-              "a node library, or a folder of them, to load besides the built-in ones")
+              "a node library, a folder of them, or a *.py with nodes, to load besides the built-in ones")
       .type_name("PATH");
   for (const auto add :
        {add_run,     add_sweep,  add_compare, add_plan,    add_runs,      add_check,      add_nodes,

@@ -81,7 +81,7 @@ void add_plugins(const Command& app, Common& common, Action& action) {
   command.footer(
       "Libraries are looked for in --plugin PATH, in the folders of $BALLFLOW_PLUGIN_PATH (separated by "
       "\":\"),\n"
-      "and beside the program (../lib/ballflow).");
+      "and beside the program (../lib/ballflow). A file *.py in --plugin has nodes in Python.");
   command.callback(
       [&common, &action, json] { action = [&common, json] { return list_plugins(common, *json); }; });
 }

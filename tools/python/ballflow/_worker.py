@@ -1,17 +1,17 @@
 """The process in which the engine runs nodes of a Python file: ``python3 _worker.py PARENT``.
 
-It talks with the engine over the socket that is its descriptor 3, in lines of JSON; a line that comes with
+It talks with the engine over the socket that it gets as descriptor 3, in lines of JSON; a line that comes with
 arrays comes with a file in memory (a memfd) that holds them. What the file prints goes to the engine, too,
 through descriptors 1 and 2, and becomes messages of the node that runs.
 
     engine: {"file": PATH, "types": [declarations of artifact types]}                            once, first
     worker: {"nodes": [{"declaration": {...}, "digest": HEX}, ...], "version": "Python 3.11.2"}
         or  {"refused": "why"}                                                              and ends itself
-    engine: {"run": ID, "params": {...}, "seed": n, "threads": n, "memory": n,
+    engine: {"number": N, "run": ID, "params": {...}, "seed": n, "threads": n, "memory": n,
              "inputs": {PORT: [ARTIFACT, ...]}}                                               + file
-    worker: {"progress": 0.5}, {"log": TEXT}, {"warn": TEXT}                            any number of these
-    worker: {"outputs": {PORT: ARTIFACT}} + file
-        or  {"error": "ValueError: ... (my_nodes.py:12, in Scale)", "hint": TEXT, "trace": [LINES]}
+    worker: {"of": N, "progress": 0.5}, {"of": N, "log": TEXT}, {"of": N, "warn": TEXT} any number of these
+    worker: {"of": N, "outputs": {PORT: ARTIFACT}}                                            + file
+        or  {"of": N, "error": "ValueError: ... (my_nodes.py:12, in Scale)", "hint": TEXT, "trace": [LINES]}
 
     ARTIFACT: {"type": ID, "version": n, "summary": {...}, "arrays": [ARRAY, ...]}
     ARRAY: {"name": NAME, "dtype": "f64", "shape": [...], "offset": bytes from the start of the file}
@@ -24,6 +24,7 @@ from __future__ import annotations
 import array
 import ctypes
 import faulthandler
+import fcntl
 import importlib.abc
 import importlib.machinery
 import importlib.util
@@ -43,6 +44,7 @@ from pathlib import Path
 from typing import Any, Optional, Sequence
 
 CHANNEL = 3
+CHANNEL_FROM_NOW_ON = 200  # or the next that is free: out of the way of what a function opens and closes
 ALIGNMENT = 64
 
 
@@ -58,8 +60,8 @@ class Channel:
     """Lines of JSON, with files."""
 
     def __init__(self, descriptor: int) -> None:
-        os.set_inheritable(descriptor, False)
-        self.socket = socket.socket(fileno=descriptor)
+        self.socket = socket.socket(fileno=fcntl.fcntl(descriptor, fcntl.F_DUPFD_CLOEXEC, CHANNEL_FROM_NOW_ON))
+        os.close(descriptor)
         self.text = b""
         self.files: list[int] = []
         self.lock = threading.Lock()  # a function may tell its progress from threads of its own
@@ -239,8 +241,12 @@ class Run:
         self.threads = request["threads"]
         self.memory_bytes = request["memory"]
         self.seed = request["seed"]
+        self.number = request["number"]
         self.channel = channel
         self.told = 0.0
+
+    def send(self, message: dict[str, Any], file: Optional[int] = None) -> None:
+        self.channel.send({"of": self.number, **message}, file)
 
     def cancelled(self) -> bool:
         return False  # the engine ends the process
@@ -248,10 +254,10 @@ class Run:
     def progress(self, fraction: float) -> None:
         if time.monotonic() - self.told > 0.02:  # no oftener than somebody looks
             self.told = time.monotonic()
-            self.channel.send({"progress": fraction})
+            self.send({"progress": fraction})
 
     def log(self, text: str, warning: bool) -> None:
-        self.channel.send({"warn" if warning else "log": text})
+        self.send({"warn" if warning else "log": text})
 
 
 def run(node: Any, request: dict[str, Any], file: Optional[int], channel: Channel, path: str) -> None:
@@ -286,7 +292,7 @@ def run(node: Any, request: dict[str, Any], file: Optional[int], channel: Channe
         answer = {"error": cause, "hint": hint, "trace": _node.trace_of(problem)}
     sys.stdout.flush()
     sys.stderr.flush()
-    channel.send(answer, outputs)
+    told.send(answer, outputs)
     if outputs is not None:
         os.close(outputs)
 
