@@ -173,6 +173,17 @@ def test_without_a_cache_nothing_is_written(tmp_path):
     assert bf.run("balls", file="balls:0 0 0 1", cache=False)["load"].status == "run"
 
 
+def test_an_upstream_has_what_another_cache_made(tmp_path):
+    (tmp_path / "shared").mkdir(mode=0o700)
+    first = bf.run("balls", file="balls:0 0 0 1", cache="one", upstream="shared")
+    again = bf.run("balls", file="balls:0 0 0 1", cache="two", upstream="shared")
+    assert {node.status for node in again.nodes.values()} == {"hit"} and again.balls == first.balls
+    with pytest.raises(bf.UsageError, match="upstream needs the cache"):
+        bf.run("balls", file="balls:0 0 0 1", cache=False, upstream="shared")
+    with pytest.raises(bf.StoreError, match="absent"):
+        bf.run("balls", file="balls:0 0 0 1", upstream="absent")
+
+
 def test_outputs_as_files(tmp_path, program):
     run = bf.run("balls", file="balls:0 0 0 1; 1.5 0 0 1")
     run.save(tmp_path / "out", {"balls": "csv"})

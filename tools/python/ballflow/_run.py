@@ -382,8 +382,8 @@ def _execute(
             display.close()
 
 
-def _tell(run: Run, stacklevel: int) -> None:
-    for text in run.warnings:
+def _tell(run: Run, upstream_notes: Sequence[str], stacklevel: int) -> None:
+    for text in [*run.warnings, *(f"upstream: {note}" for note in upstream_notes)]:
         warnings.warn(text, BallflowWarning, stacklevel=stacklevel)
     if run._core.trouble:
         warnings.warn(f"not everything could be cached: {run._core.trouble}", BallflowWarning, stacklevel=stacklevel)
@@ -402,6 +402,8 @@ def run(
     *,
     cache: Cache = None,
     cache_size: Optional[str] = None,
+    upstream: Optional[PathLike] = None,
+    upstream_read_only: bool = False,
     plugins: Sequence[PathLike] = (),
     threads: int = 0,
     memory: Union[str, int, None] = None,
@@ -423,7 +425,8 @@ def run(
     one that is an artifact takes an artifact or the path of one.
 
     ``cache``: a folder; None is that of the command line, False none. ``cache_size`` as of the command line
-    ("5G"). ``plugins``: node libraries. ``threads``: 0 is all processors; results never depend on it.
+    ("5G"). ``upstream``: a folder or http:// address that several machines share (docs/cluster.md), None is
+    $BALLFLOW_UPSTREAM; ``upstream_read_only`` takes from it and publishes nothing. ``plugins``: node libraries. ``threads``: 0 is all processors; results never depend on it.
     ``memory``: what running nodes may take together ("8G", "50%", bytes). ``keep_going``: after a failure go on
     with what does not need the failed node, and return the run instead of raising. ``until``, ``only``,
     ``force``: names of nodes, as of the command line.
@@ -439,14 +442,15 @@ def run(
         raise TypeError(f"graph is a name, a path or a Graph, not a {type(graph).__name__}")
     request = _Request(graph, {**(params or {}), **settings}, plugins)
     request.set_all()
-    store = _session.store(cache)
+    store = _session.store(cache, upstream, upstream_read_only)
+    noted = len(store.upstream_notes)
     plan = request.load(store)
     if plan.variants:
         raise UsageError(f"{request.file} is a sweep", "use ballflow.sweep()")
     options = _settings(threads, memory, seed, keep_going, strict, until, only, force)
     core = _execute(plan, store, options, cache_size, progress, request.command(options))
     result = Run(plan, core, request.files, cache, plugins)
-    _tell(result, 3)
+    _tell(result, store.upstream_notes[noted:], 3)
     if result.status == "cancelled":
         raise Cancelled(result)
     failure = _failure(result)

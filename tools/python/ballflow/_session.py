@@ -10,7 +10,7 @@ from typing import Any, Iterable, Optional, Sequence, Union
 
 from . import _artifact
 from . import _core as _core
-from ._errors import BallflowError
+from ._errors import BallflowError, UsageError
 
 PathLike = Union[str, "os.PathLike[str]"]
 #: A folder; None for the cache of the command line; False for none.
@@ -20,7 +20,7 @@ _PACKAGE = Path(__file__).resolve().parent
 _lock = threading.RLock()
 _registries: dict[tuple[str, ...], Any] = {}
 _with_nodes: dict[tuple[str, ...], tuple[tuple[Any, ...], Any]] = {}
-_stores: dict[str, Any] = {}
+_stores: dict[tuple[str, str, bool], Any] = {}
 _owner = os.getpid()
 _used = False
 
@@ -109,18 +109,25 @@ def registry(plugins: Sequence[PathLike] = ()) -> Any:
         return known[1]
 
 
-def store(cache: Cache = None) -> Any:
-    """The open cache: a folder, None for that of the command line ($BALLFLOW_CACHE), False for none."""
+def store(cache: Cache = None, upstream: Optional[PathLike] = None, upstream_read_only: bool = False) -> Any:
+    """The open cache: a folder, None for that of the command line ($BALLFLOW_CACHE), False for none. Behind it
+    ``upstream``, None for $BALLFLOW_UPSTREAM."""
     if cache is False:
-        return _core.open_store("")
-    if cache is True:
-        cache = None
-    root = os.path.abspath(os.fspath(cache)) if cache is not None else _core.default_cache()
+        if upstream is not None:
+            raise UsageError(
+                "upstream needs the cache that cache=False forbids",
+                "what comes from an upstream lies in the cache before it is used; leave one of them out",
+            )
+        return _core.open_store("", "", False)
+    root = os.path.abspath(os.fspath(cache)) if not isinstance(cache, bool) and cache is not None else ""
+    root = root or _core.default_cache()
+    place = os.fspath(upstream) if upstream is not None else os.environ.get("BALLFLOW_UPSTREAM", "")
+    key = (root, place, bool(upstream_read_only))
     with _lock:
-        found = _stores.get(root)
+        found = _stores.get(key)
         if found is None or not os.path.isdir(root):
-            found = _core.open_store(root)
-            _stores[root] = found
+            found = _core.open_store(*key)
+            _stores[key] = found
         return found
 
 

@@ -128,6 +128,8 @@ def sweep(
     *,
     cache: Cache = None,
     cache_size: Optional[str] = None,
+    upstream: Optional[PathLike] = None,
+    upstream_read_only: bool = False,
     plugins: Sequence[PathLike] = (),
     threads: int = 0,
     memory: Union[str, int, None] = None,
@@ -156,14 +158,15 @@ def sweep(
             request.inputs.append(f"{name}={os.fspath(value)}")
         else:
             request.set(name, value)
-    store = _session.store(cache)
+    store = _session.store(cache, upstream, upstream_read_only)
+    noted = len(store.upstream_notes)
     plan = request.load(store)
     if not plan.variants:
         raise UsageError(f"{request.file}: nothing to sweep over", "give a list of values: epsilon=[0.1, 0.3]")
     options = _settings(threads, memory, seed, True, strict, None, None, None)
     core = _execute(plan, store, options, cache_size, progress, request.command(options))
     run = Run(plan, core, request.files, cache, plugins)
-    _tell(run, 3)
+    _tell(run, store.upstream_notes[noted:], 3)
     if run.status == "cancelled":
         raise Cancelled(run)
     result = Sweep(run, _variants(plan, run))

@@ -91,10 +91,16 @@ void save_artifact(const Handle& handle, const std::string& path, const std::str
   export_artifact(*handle.artifact, path, format);
 }
 
-std::shared_ptr<Store> open_store(const std::string& root) {
+/// `upstream`: a place as of Upstream::open, or empty.
+std::shared_ptr<Store> open_store(const std::string& root, const std::string& upstream,
+                                  bool upstream_read_only) {
   StoreOptions options;
   options.root = root;
   const py::gil_scoped_release release;
+  if (!upstream.empty()) {
+    options.upstream.upstream = Upstream::open(upstream);
+    options.upstream.read_only = upstream_read_only;
+  }
   return Store::open(options);
 }
 
@@ -218,7 +224,8 @@ PYBIND11_MODULE(_core, module) {
 
   py::class_<Store, std::shared_ptr<Store>>(module, "Store")
       .def_property_readonly("root", &Store::root)
-      .def_property_readonly("why", &Store::why);
+      .def_property_readonly("why", &Store::why)
+      .def_property_readonly("upstream_notes", &Store::upstream_notes);
   module.def("open_store", &open_store);
   module.def("default_cache", &Store::default_root);
 
