@@ -246,13 +246,14 @@ class PythonFile {
       }
     }
     file = arrays.file();
-    return dumped({{"number", number},
-                   {"run", std::string(view(run.node))},
-                   {"params", Json::parse(view(run.params), nullptr, false)},
-                   {"seed", run.seed},
-                   {"threads", run.max_threads},
-                   {"memory", run.struct_size >= sizeof(bf_run) ? run.memory_bytes : 0},
-                   {"inputs", std::move(inputs)}});
+    return dumped(
+        {{"number", number},
+         {"run", std::string(view(run.node))},
+         {"params", Json::parse(view(run.params), nullptr, false)},
+         {"seed", run.seed},
+         {"threads", run.max_threads},
+         {"memory", run.struct_size >= BALLFLOW_SIZE_UP_TO(bf_run, memory_bytes) ? run.memory_bytes : 0},
+         {"inputs", std::move(inputs)}});
   }
 
   const Json& declaration_of(std::string_view id) const {

@@ -269,10 +269,12 @@ class NodeFunction:
             inputs = {
                 name: hints[name] for name in signature.parameters if name in hints and _is_artifact(hints[name])
             }
-        if outputs is None and _is_artifact(hints.get("return")):
-            outputs = hints["return"]
-        if isinstance(outputs, type) and issubclass(outputs, Artifact):
-            outputs = {outputs.__name__.lower(): outputs}
+        if outputs is None:
+            outputs = hints.get("return")
+        if _is_artifact(outputs):
+            alone = _without_none(_stripped(outputs)[0])[0]
+            alone = (typing.get_args(alone) or (alone,))[0]  # of a list, which is refused below
+            outputs = {alone.__name__.lower(): outputs}
         if not isinstance(inputs, Mapping) or not isinstance(outputs, Mapping) or not outputs:
             raise reading.wrong('inputs and outputs are dicts of names and types: {"balls": ballflow.Balls}')
         missing = [name for name in inputs if name not in signature.parameters]

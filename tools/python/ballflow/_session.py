@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import sys
 import threading
 from pathlib import Path
 from typing import Any, Iterable, Optional, Sequence, Union
@@ -18,7 +19,7 @@ Cache = Union[PathLike, bool, None]
 
 _PACKAGE = Path(__file__).resolve().parent
 _lock = threading.RLock()
-_registries: dict[tuple[str, ...], Any] = {}
+_registries: dict[tuple[str, ...], tuple[Any, Any]] = {}
 _with_nodes: dict[tuple[str, ...], tuple[tuple[Any, ...], Any]] = {}
 _stores: dict[tuple[str, str, bool], Any] = {}
 _owner = os.getpid()
@@ -83,13 +84,24 @@ os.register_at_fork(after_in_child=_forked)
 def base_registry(plugins: Sequence[PathLike] = ()) -> Any:
     """ballflow's node libraries, those of $BALLFLOW_PLUGIN_PATH, and `plugins` (files or folders)."""
     key = tuple(os.fspath(plugin) for plugin in plugins)
+    state = _python_files(key)
     with _lock:
-        found = _registries.get(key)
-        if found is None:
-            found = _core.load_registry(list(key), str(library_folder()))
-            _registries[key] = found
-            _artifact.declare(json.loads(text) for text in found.types())
-        return found
+        known = _registries.get(key)
+        if known is None or known[0] != state:
+            if state:
+                os.environ.setdefault("BALLFLOW_PYTHON", sys.executable)
+            known = (state, _core.load_registry(list(key), str(library_folder())))
+            _registries[key] = known
+            _with_nodes.pop(key, None)
+            _artifact.declare(json.loads(text) for text in known[1].types())
+        return known[1]
+
+
+def _python_files(plugins: Iterable[str]) -> list[tuple[str, int, int]]:
+    """The state of the files of nodes in Python, and of what is beside them: they are edited while this lives."""
+    folders = {Path(plugin).absolute().parent for plugin in plugins if plugin.endswith(".py")}
+    files = [(path, path.stat()) for folder in sorted(folders) for path in sorted(folder.glob("*.py"))]
+    return [(str(path), stat.st_mtime_ns, stat.st_size) for path, stat in files]
 
 
 def registry(plugins: Sequence[PathLike] = ()) -> Any:
