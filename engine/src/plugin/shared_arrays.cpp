@@ -71,11 +71,12 @@ Descriptor ArraysToShare::file() const {
 }
 
 SharedArrays::SharedArrays(Descriptor file) {
+  constexpr int seals = F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE;
   struct stat status {};
-  if (!file.is_open() || ::fcntl(file.get(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE) != 0 ||
-      ::fstat(file.get(), &status) != 0) {
+  if (file.is_open()) ::fcntl(file.get(), F_ADD_SEALS, seals);  // it may be sealed already
+  const int sealed = file.is_open() ? ::fcntl(file.get(), F_GET_SEALS) : -1;
+  if (sealed < 0 || (sealed & seals) != seals || ::fstat(file.get(), &status) != 0)
     not_shared("its process handed over no memory that can be sealed");
-  }
   size_ = static_cast<std::uint64_t>(status.st_size);
   if (size_ == 0) return;
   void* const address = ::mmap(nullptr, size_, PROT_READ, MAP_SHARED, file.get(), 0);
@@ -89,7 +90,8 @@ std::vector<bf_array> SharedArrays::arrays(const Json& described) const {
   std::vector<bf_array> all;
   for (const Json& item : described) {
     const auto wrong = [&](const std::string& why) {
-      not_shared("its process described an array that " + why + ": " + in_quotes(item.dump()));
+      not_shared("its process described an array that " + why + ": " +
+                 in_quotes(item.dump(-1, ' ', false, Json::error_handler_t::replace)));
     };
     const auto number = [](const Json& value) { return value.is_number_unsigned(); };
     if (!item.is_object() || !item.contains("name") || !item.at("name").is_string() ||
