@@ -8,6 +8,7 @@ const bf_node* choose_template_entry();
 const bf_node* match_entry();
 const bf_node* shape_fit_entry();
 const bf_node* shape_instance_entry();
+const bf_node* shape_mesh_entry();
 const bf_node* shape_prior_entry();
 const bf_node* split_components_entry();
 const bf_node* template_balls_entry();
@@ -20,6 +21,7 @@ BALLFLOW_PLUGIN("prior", "0.1.0",
                     ballflow::nodes::match_entry(),
                     ballflow::nodes::shape_fit_entry(),
                     ballflow::nodes::shape_instance_entry(),
+                    ballflow::nodes::shape_mesh_entry(),
                     ballflow::nodes::shape_prior_entry(),
                     ballflow::nodes::split_components_entry(),
                     ballflow::nodes::template_balls_entry(),

@@ -79,7 +79,7 @@ Balls shape_instance(const ShapePrior& prior, std::span<const double> scores) {
   return balls;
 }
 
-PointSet instance_points(const ShapePrior& prior, std::span<const double> scores) {
+std::vector<Vec3> labelled_instance_points(const ShapePrior& prior, std::span<const double> scores) {
   refuse(prior, scores);
   const std::size_t m = prior.points.size();
   std::vector<Vec3> points;
@@ -89,6 +89,11 @@ PointSet instance_points(const ShapePrior& prior, std::span<const double> scores
       point = point + scores[mode] * prior.point_modes[mode * m + i];
     points.push_back(point + Vec3{0, 0, 0});  // no -0
   }
+  return points;
+}
+
+PointSet instance_points(const ShapePrior& prior, std::span<const double> scores) {
+  const std::vector<Vec3> points = labelled_instance_points(prior, scores);
   const std::vector<std::int32_t> first = first_equal_point(points);
   std::vector<Vec3> distinct;
   for (std::size_t i = 0; i < points.size(); ++i) {

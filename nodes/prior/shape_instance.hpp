@@ -19,6 +19,9 @@ std::vector<double> parse_scores(std::string_view text);
 /// model; see ShapePrior. Throws InputError for more scores than modes, and for balls that are not finite.
 Balls shape_instance(const ShapePrior& prior, std::span<const double> scores);
 
+/// Its surface points, all of them in the order of the model.
+std::vector<Vec3> labelled_instance_points(const ShapePrior& prior, std::span<const double> scores);
+
 /// Its surface points, without normals; those that coincide with an earlier one are left out.
 PointSet instance_points(const ShapePrior& prior, std::span<const double> scores);
 

@@ -1,9 +1,11 @@
 #include "prior/shape_prior.hpp"
 
 #include <ballflow/sdk.hpp>
+#include <utility>
 #include <vector>
 
 #include "prior/eigen_version.hpp"
+#include "prior/shape_mesh.hpp"
 #include "types/artifact_types.hpp"
 #include "types/prior_types.hpp"
 #include "types/shape_types.hpp"
@@ -16,11 +18,13 @@ using geometry::ShapePriorOptions;
 struct ShapePrior {
   InList<geometry::MatchedBalls> instances;
   InList<geometry::TriangleMesh> meshes;
+  In<geometry::TriangleMesh> surface;
+  In<geometry::PointSet> surface_points;
   Out<geometry::ShapePrior> prior;
   ShapePriorOptions options;
 
   static void declare(NodeDecl<ShapePrior>& d) {
-    d.id("ShapePrior", 1)
+    d.id("ShapePrior", 2)
         .summary(
             "Learns how a shape varies from several instances of it: mean, modes, and how good they are.");
     d.doc(
@@ -48,6 +52,14 @@ struct ShapePrior {
         .doc(
             "surfaces of the instances in their order, for distances of the evaluation; else these are "
             "measured to tangent planes");
+    d.input("surface", &ShapePrior::surface)
+        .optional()
+        .doc(
+            "the template's own: it goes with the model, so that instances have meshes with its triangles; "
+            "see ShapeMesh");
+    d.input("surface_points", &ShapePrior::surface_points)
+        .optional()
+        .doc("the template's, which all instances were matched with: they tell where its surface goes");
     d.output("prior", &ShapePrior::prior).doc("mean, modes, scores of the instances, evaluation");
     d.choice("balls", &ShapePrior::options, &ShapePriorOptions::balls,
              {{geometry::ModelBalls::carried, "carried",
@@ -93,7 +105,18 @@ struct ShapePrior {
     ContextMonitor monitor(context);
     const std::vector<geometry::MatchedBalls> all(instances.begin(), instances.end());
     const std::vector<geometry::TriangleMesh> surfaces(meshes.begin(), meshes.end());
-    prior = geometry::shape_prior(all, surfaces, options, monitor);
+    if (static_cast<bool>(surface) != static_cast<bool>(surface_points))
+      throw geometry::InputError(surface ? "the template's surface is connected without its points"
+                                         : "the template's points are connected without its surface",
+                                 "connect both, or none of them");
+    geometry::PartMonitor learning(monitor, 0, surface ? 0.9 : 1), carrying(monitor, 0.9, 1);
+    geometry::ShapePrior learned = geometry::shape_prior(all, surfaces, options, learning);
+    if (surface) {
+      geometry::TriangleMesh mean = geometry::mesh_of_mean(learned, *surface, *surface_points, carrying);
+      learned.vertices = std::move(mean.vertices);
+      learned.triangles = std::move(mean.triangles);
+    }
+    prior = std::move(learned);
   }
 };
 

@@ -37,6 +37,8 @@ std::string wrong_sizes(const ShapePrior& v) {
   if (k == 0) return "a model without balls";
   if (v.centers.size() != k) return "not as many centers as radii";
   if (v.normals.size() != m) return "not as many normals as points";
+  if (std::string wrong = broken_invariant(TriangleMesh{v.vertices, v.triangles}); !wrong.empty())
+    return "the mesh of the mean: " + wrong;
   if (v.modes.size() != q * k) return "the modes are not modes x balls";
   if (v.point_modes.size() != q * m) return "the modes of the points are not modes x points";
   if (v.scores.size() != n * q) return "the scores are not instances x modes";

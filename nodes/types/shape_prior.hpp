@@ -8,6 +8,7 @@
 
 #include "base/array.hpp"
 #include "base/vec3.hpp"
+#include "types/triangle_mesh.hpp"
 
 namespace ballflow::geometry {
 
@@ -31,6 +32,9 @@ struct ShapePrior {
   Array<double> radii;  // k, above 0: geometric means
   Array<Vec3> points;   // m x 3, of the mean surface
   Array<Vec3> normals;  // m x 3, of length 1, outwards
+  // The template's own surface where the mean has it: ShapeMesh. None of both where it was not given.
+  Array<Vec3> vertices;       // v x 3
+  Array<Triangle> triangles;  // t x 3: as in TriangleMesh
   double point_share = 0, radius_unit = 0, along = 1;
 
   // q modes, those of largest variance first. Signs: of the scores of a mode the one of largest absolute

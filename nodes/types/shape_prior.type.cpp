@@ -15,6 +15,11 @@ void TypeOf<geometry::ShapePrior>::declare(TypeDecl<geometry::ShapePrior>& d) {
   d.array("radii", &T::radii).length("k").doc("geometric means, model units");
   d.array("points", &T::points).length("m").optional().doc("of the mean surface, model units");
   d.array("normals", &T::normals).length("m").optional().doc("of the mean surface, of length 1");
+  d.array("vertices", &T::vertices)
+      .length("v")
+      .optional()
+      .doc("of the template's surface where the mean has it, model units");
+  d.array("triangles", &T::triangles).length("t").optional().doc("of the template's surface, v indices");
   d.scalar("point_share", &T::point_share).doc("weight of the points in the metric; the rest is the balls'");
   d.scalar("radius_unit", &T::radius_unit).doc("length that a change of log r by 1 counts as, model units");
   d.scalar("along", &T::along).doc("weight of displacements of points along the surface");
@@ -49,6 +54,7 @@ void TypeOf<geometry::ShapePrior>::declare(TypeDecl<geometry::ShapePrior>& d) {
   d.scalar("scaled", &T::scaled).doc("1: the instances were scaled to one size");
   d.summary("instances", "number of instances").summary("balls", "number of balls of each");
   d.summary("points", "number of surface points of each").summary("modes", "number of modes");
+  d.summary("triangles", "of the mesh of the mean; 0: none");
   d.summary("bbox", "bounding box of the mean's centers, model units");
   d.summary("compactness", "part of the variance in the first modes: of 1, of 2, ...");
   d.summary("deviations", "root of the variance of each mode, model units");
@@ -70,6 +76,7 @@ void TypeOf<geometry::ShapePrior>::declare(TypeDecl<geometry::ShapePrior>& d) {
                    {"balls", v.balls()},
                    {"points", v.points.size()},
                    {"modes", v.mode_count()},
+                   {"triangles", v.triangles.size()},
                    {"bbox", box_summary(geometry::bounding_box(v.centers.span()))},
                    {"compactness", compactness},
                    {"deviations", deviations},

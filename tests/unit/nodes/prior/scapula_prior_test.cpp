@@ -13,6 +13,7 @@
 #include "io/read_mesh.hpp"
 #include "prior/shape_fit.hpp"
 #include "prior/shape_instance.hpp"
+#include "prior/shape_mesh.hpp"
 #include "prior/shape_prior.hpp"
 #include "search/surface_tree.hpp"
 #include "test_data.hpp"
@@ -219,6 +220,52 @@ TEST_F(ScapulaModels, complete_a_half_at_least_as_well_as_their_mean) {
       noisy_error / fit_error);
   EXPECT_LE(fit_error, mean_error);
   EXPECT_LE(noisy_error, 1.1 * fit_error);
+}
+
+// The balls of thin blades do not touch: the boundary of their union has dozens of pieces.
+TEST_F(ScapulaModels, complete_halves_in_one_piece) {
+  const auto& [bones, meshes, all] = *scapulas;
+  ShapePriorOptions options;
+  options.draws = 0;
+  ShapePrior prior = model_without(0, options);
+  TriangleMesh mean = mesh_of_mean(prior, meshes[0], bones[0].samples);  // the others were matched to it
+  prior.vertices = std::move(mean.vertices);
+  prior.triangles = std::move(mean.triangles);
+  const MeshTopology own = mesh_topology(meshes[0]);
+  const Box box = bounding_box(meshes[0].vertices.span());
+  for (int cut = 0; cut < (at_night() ? 6 : 2); ++cut) {
+    const Vec3 middle = 0.5 * (box.lower + box.upper);
+    PointSet half;
+    std::vector<Vec3> points, normals;
+    for (std::size_t i = 0; i < bones[0].samples.points.size(); ++i) {
+      const Vec3 p = bones[0].samples.points[i] - middle;
+      const double height = cut / 2 == 0 ? p.x : cut / 2 == 1 ? p.z : p.y;
+      if ((height < 0) != (cut % 2 == 0)) continue;
+      points.push_back(bones[0].samples.points[i]);
+      normals.push_back(bones[0].samples.normals[i]);
+    }
+    half.points = std::move(points);
+    half.normals = std::move(normals);
+    const ShapeFit fit = shape_fit(prior, half, pose_of(all[0]));
+    Warnings warnings;
+    const ShapeMesh made = shape_mesh(prior, fit.scores, fit.pose, balls_of(fit), warnings);
+    const MeshTopology topology = mesh_topology(made.mesh);
+    EXPECT_EQ(topology.components, own.components);
+    EXPECT_EQ(topology.genus, own.genus);
+    EXPECT_TRUE(topology.closed && topology.manifold && topology.oriented);
+    EXPECT_EQ(made.check.folded, 0);
+    EXPECT_LE(made.check.intersections, made.check.of_mean);
+    EXPECT_EQ(warnings.text, "");
+    const SurfaceTree tree(meshes[0]);
+    double sum = 0;
+    for (const Vec3& p : made.mesh.vertices) sum += tree.nearest(p, everywhere)->distance;
+    sum /= static_cast<double>(made.mesh.vertices.size());
+    std::printf("half %d: %.3f from the bone, %.3f from the balls, volume %.4g\n", cut, sum,
+                made.check.mean_distance, made.check.volume);
+    EXPECT_LT(sum, 0.015 * length(box.upper - box.lower));
+    // 100 balls that nobody chose leave much of the blade out.
+    EXPECT_LT(made.check.mean_distance, 0.02 * length(box.upper - box.lower));
+  }
 }
 
 }  // namespace

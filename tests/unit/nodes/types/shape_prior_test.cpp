@@ -41,6 +41,11 @@ TEST(shape_prior_type, tells_what_is_wrong) {
        [](ShapePrior& p) {
          p.modes = {{1, 0, 0, 0}};
        }},
+      {"the mesh of the mean: ",
+       [](ShapePrior& p) {
+         p.vertices = {{0, 0, 0}};
+         p.triangles = {{0, 0, 1}};
+       }},
       {"modes x points", [](ShapePrior& p) { p.point_modes = {}; }},
       {"instances x modes", [](ShapePrior& p) { p.scores = {1}; }},
       {"ball 1 is not above 0",
