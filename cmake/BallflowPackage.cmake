@@ -37,7 +37,7 @@ if(owner MATCHES "^([^:, ]+)")
 else()
   set(CPACK_DEBIAN_PACKAGE_DEPENDS libembree3-3)
 endif()
-# For who builds against the headers and static libraries.
+# For nodes in Python; for who builds against the headers and static libraries.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
-  "cmake, g++, nlohmann-json3-dev, libtbb-dev, libcgal-dev, libboost-dev, libssl-dev, libzstd-dev, zlib1g-dev")
+  "python3-numpy, cmake, g++, nlohmann-json3-dev, libtbb-dev, libcgal-dev, libboost-dev, libssl-dev, libzstd-dev, zlib1g-dev")
 include(CPack)

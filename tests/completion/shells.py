@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""shells.py SHELL BALLFLOW: types beginnings of commands and the tab key into the shell, and looks at what it made of
-them. Exit code 77: the shell is not here."""
+"""shells.py SHELL BALLFLOW: types beginnings of commands and the tab key into the shell, and looks at what
+it made of them. Exit code 77: the shell is not here."""
 
 import os
 import pty
@@ -18,10 +18,14 @@ CASES: list[tuple[str, list[str]]] = [
     ("ballflow run medial_a", ["ballflow", "run", "medial_axis"]),
     ("ballflow run shape --no-c", ["ballflow", "run", "shape", "--no-cache"]),
     ("ballflow run medial_axis --set eps", ["ballflow", "run", "medial_axis", "--set", "epsilon="]),
-    ("ballflow run medial_axis --set strategy=gre",
-     ["ballflow", "run", "medial_axis", "--set", "strategy=greedy"]),
-    ("ballflow run medial_axis --set input=my_sc",
-     ["ballflow", "run", "medial_axis", "--set", "input=my_scan.ply"]),
+    (
+        "ballflow run medial_axis --set strategy=gre",
+        ["ballflow", "run", "medial_axis", "--set", "strategy=greedy"],
+    ),
+    (
+        "ballflow run medial_axis --set input=my_sc",
+        ["ballflow", "run", "medial_axis", "--set", "input=my_scan.ply"],
+    ),
     ("ballflow run my_gr", ["ballflow", "run", "my_graph.json"]),
     ("ballflow run shape --out my_fo", ["ballflow", "run", "shape", "--out", "my_folder/"]),
     ("ballflow compare --format cs", ["ballflow", "compare", "--format", "csv"]),
@@ -32,7 +36,7 @@ CASES: list[tuple[str, list[str]]] = [
 SET_UP = {
     "bash": "PS1='ready> '; bind 'set enable-bracketed-paste off'; source <(ballflow completion bash)\n",
     "zsh": "PS1='ready> '; unset zle_bracketed_paste; autoload -U compinit; compinit -u -D; "
-           "source <(ballflow completion zsh)\n",
+    "source <(ballflow completion zsh)\n",
 }
 WORDS = "words() { printf '<%s>' \"$@\"; echo; }\n"
 START = {"bash": ["bash", "--norc", "--noprofile", "-i"], "zsh": ["zsh", "-f", "-i"]}
@@ -78,8 +82,14 @@ def asked(environment: dict[str, str], folder: str) -> list[list[str]]:
     results = []
     for line, expected in CASES:
         script = f"ballflow completion fish | source; complete -C '{line}'"
-        run = subprocess.run(["fish", "--no-config", "-c", script], env=environment, cwd=folder, text=True,
-                             stdout=subprocess.PIPE, check=True)
+        run = subprocess.run(
+            ["fish", "--no-config", "-c", script],
+            env=environment,
+            cwd=folder,
+            text=True,
+            stdout=subprocess.PIPE,
+            check=True,
+        )
         candidates = [candidate.split("\t")[0] for candidate in run.stdout.splitlines()]
         results.append(line.split()[:-1] + candidates)
     return results
@@ -94,8 +104,13 @@ def main() -> None:
         Path(folder, "my_scan.ply").touch()
         Path(folder, "my_graph.json").touch()
         Path(folder, "my_folder").mkdir()
-        environment = {"PATH": f"{os.path.dirname(program)}:{os.environ['PATH']}", "HOME": folder, "TERM": "dumb",
-                       "LANG": "C.UTF-8", "BALLFLOW_CACHE": f"{folder}/cache"}
+        environment = {
+            "PATH": f"{os.path.dirname(program)}:{os.environ['PATH']}",
+            "HOME": folder,
+            "TERM": "dumb",
+            "LANG": "C.UTF-8",
+            "BALLFLOW_CACHE": f"{folder}/cache",
+        }
         results = asked(environment, folder) if shell == "fish" else typed(shell, environment, folder)
     failed = 0
     for (line, expected), words in zip(CASES, results):

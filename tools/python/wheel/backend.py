@@ -1,11 +1,11 @@
 """Makes the wheel: what pip calls for a checkout (PEP 517), and `tools/package wheel`.
 
-A backend of our own, since what is in the wheel is made by CMake and changed by patchelf: setuptools would pack it with
-four commands replaced and leave folders in the checkout, scikit-build-core is not in Debian, and both would have to be
-downloaded before anything begins.
+A backend of our own, since what is in the wheel is made by CMake and changed by patchelf: setuptools would
+pack it with four commands replaced and leave folders in the checkout, scikit-build-core is not in Debian, and
+both would have to be downloaded before anything begins.
 
-The tree that is packed is build/wheel, configured and built here for the Python that runs this; $BALLFLOW_BUILD names
-another one, which is taken as it is.
+The tree that is packed is build/wheel, configured and built here for the Python that runs this;
+$BALLFLOW_BUILD names another one, which is taken as it is.
 
     ballflow/                   the Python files, and the extension _core
     ballflow/bin/ballflow       the program, which the script "ballflow" of the environment becomes
@@ -34,9 +34,9 @@ import bundle
 SOURCE = Path(__file__).resolve().parents[3]
 Settings = Optional[Mapping[str, Any]]
 
-# "#!python" becomes the interpreter of the environment. The package is found without importing it, which takes longer
-# than many a command.
-SCRIPT = '''#!python
+# "#!python" becomes the interpreter of the environment. The package is found without importing it, which
+# takes longer than many a command.
+SCRIPT = """#!python
 import importlib.util
 import os
 import sys
@@ -46,12 +46,12 @@ if spec is None or spec.origin is None:
     sys.exit("ballflow: the package is not in this environment; install it again")
 program = os.path.join(os.path.dirname(spec.origin), "bin", "ballflow")
 os.execv(program, sys.argv[:1] + sys.argv[1:])
-'''
+"""
 
 DESCRIPTION = """\
-Pipelines of typed nodes that compute with unions of balls: polar balls of a scan, a small set of them with a proven
-bound, stable medial axes, Minkowski sums, closed surfaces, collision spheres of robots. Intermediate results are cached
-by their content.
+Pipelines of typed nodes that compute with unions of balls: polar balls of a scan, a small set of them with a
+proven bound, stable medial axes, Minkowski sums, closed surfaces, collision spheres of robots. Intermediate
+results are cached by their content.
 
     import ballflow as bf
     run = bf.run("medial_axis", input="scan.ply", epsilon=0.3)
@@ -69,15 +69,17 @@ def version() -> str:
 
 
 def metadata() -> str:
-    return (f"Metadata-Version: 2.1\nName: ballflow\nVersion: {version()}\n"
-            "Summary: Dataflow engine for unions of balls: medial axes, covers, sums, surfaces, collision spheres\n"
-            "License: GPL-3.0-or-later\n"
-            "Classifier: License :: OSI Approved :: GNU General Public License v3 or later (GPLv3+)\n"
-            "Classifier: Operating System :: POSIX :: Linux\n"
-            "Classifier: Programming Language :: C++\n"
-            "Classifier: Topic :: Scientific/Engineering\n"
-            f"Requires-Python: =={sys.version_info.major}.{sys.version_info.minor}.*\n"
-            "Requires-Dist: numpy>=1.20\nDescription-Content-Type: text/plain\n\n" + DESCRIPTION)
+    return (
+        f"Metadata-Version: 2.1\nName: ballflow\nVersion: {version()}\n"
+        "Summary: Dataflow engine for unions of balls: medial axes, covers, sums, collision spheres\n"
+        "License: GPL-3.0-or-later\n"
+        "Classifier: License :: OSI Approved :: GNU General Public License v3 or later (GPLv3+)\n"
+        "Classifier: Operating System :: POSIX :: Linux\n"
+        "Classifier: Programming Language :: C++\n"
+        "Classifier: Topic :: Scientific/Engineering\n"
+        f"Requires-Python: =={sys.version_info.major}.{sys.version_info.minor}.*\n"
+        "Requires-Dist: numpy>=1.20\nDescription-Content-Type: text/plain\n\n" + DESCRIPTION
+    )
 
 
 def tag() -> str:
@@ -94,15 +96,28 @@ def built_tree() -> Path:
     if given:
         return Path(given).resolve()
     tree = SOURCE / "build" / "wheel"
-    configure = ["cmake", "--preset", "release", "-S", str(SOURCE), "-B", str(tree), "-DCMAKE_UNITY_BUILD=ON",
-                 "-DBALLFLOW_TESTS=OFF", f"-DPython3_EXECUTABLE={sys.executable}"]
+    configure = [
+        "cmake",
+        "--preset",
+        "release",
+        "-S",
+        str(SOURCE),
+        "-B",
+        str(tree),
+        "-DCMAKE_UNITY_BUILD=ON",
+        "-DBALLFLOW_TESTS=OFF",
+        f"-DPython3_EXECUTABLE={sys.executable}",
+    ]
     try:
         import pybind11  # from the isolated environment of pip, where Debian has none
+
         configure.append(f"-Dpybind11_DIR={pybind11.get_cmake_dir()}")
     except ImportError:
         pass
     subprocess.run(configure, check=True, cwd=SOURCE)
-    subprocess.run(["cmake", "--build", str(tree), "--target", "ballflow_programs", "ballflow_python"], check=True)
+    subprocess.run(
+        ["cmake", "--build", str(tree), "--target", "ballflow_programs", "ballflow_python"], check=True
+    )
     return tree
 
 
@@ -110,17 +125,25 @@ def stage(tree: Path, folder: Path) -> None:
     """Puts the package together in `folder`, all but the libraries that come with it."""
     extensions = list((tree / "python" / "ballflow").glob(f"_core{sysconfig.get_config_var('EXT_SUFFIX')}"))
     if len(extensions) != 1:
-        sys.exit(f"{tree} has no extension for Python {sysconfig.get_python_version()}: build the target "
-                 "ballflow_python (Python's headers and pybind11: python3-dev, pybind11-dev)")
+        sys.exit(
+            f"{tree} has no extension for Python {sysconfig.get_python_version()}: build the target "
+            "ballflow_python (Python's headers and pybind11: python3-dev, pybind11-dev)"
+        )
     package = folder / "ballflow"
-    shutil.copytree(SOURCE / "tools" / "python" / "ballflow", package, ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copytree(
+        SOURCE / "tools" / "python" / "ballflow", package, ignore=shutil.ignore_patterns("__pycache__")
+    )
     shutil.copy2(extensions[0], package)
     with tempfile.TemporaryDirectory() as prefix:
-        subprocess.run(["cmake", "--install", str(tree), "--prefix", prefix, "--strip"], check=True,
-                       stdout=subprocess.DEVNULL)
+        subprocess.run(
+            ["cmake", "--install", str(tree), "--prefix", prefix, "--strip"],
+            check=True,
+            stdout=subprocess.DEVNULL,
+        )
         for part in ("bin", "lib/ballflow", "share/ballflow"):
             shutil.copytree(Path(prefix, part), package / part)
-    # Beside them, `cmake --install` has headers and static libraries for who compiles; those are in the Debian package.
+    # Beside them, `cmake --install` has headers and static libraries for who compiles; those are in the
+    # Debian package.
     shutil.rmtree(package / "share" / "ballflow" / "python", ignore_errors=True)
     subprocess.run(["strip", str(package / extensions[0].name)], check=True)
 
@@ -137,6 +160,7 @@ def write(folder: Path, wheel: Path) -> None:
         yield from sorted(files, key=lambda path: (info in path.parts, path.as_posix()))
 
     with zipfile.ZipFile(wheel, "w", zipfile.ZIP_DEFLATED, compresslevel=6) as archive:
+
         def add(name: str, content: bytes, mode: int) -> None:
             entry = zipfile.ZipInfo(name, epoch)
             entry.external_attr = (0o100000 | mode) << 16
@@ -157,12 +181,14 @@ def write_info(folder: Path) -> Path:
     info.mkdir(parents=True)
     (info / "METADATA").write_text(metadata())
     (info / "WHEEL").write_text(
-        f"Wheel-Version: 1.0\nGenerator: ballflow\nRoot-Is-Purelib: false\nTag: {tag()}\n")
+        f"Wheel-Version: 1.0\nGenerator: ballflow\nRoot-Is-Purelib: false\nTag: {tag()}\n"
+    )
     shutil.copy(SOURCE / "LICENSE", info)
     return info
 
 
 # What pip calls.
+
 
 def get_requires_for_build_wheel(config_settings: Settings = None) -> list[str]:
     needed = []
@@ -177,8 +203,9 @@ def prepare_metadata_for_build_wheel(metadata_directory: str, config_settings: S
     return write_info(Path(metadata_directory)).name
 
 
-def build_wheel(wheel_directory: str, config_settings: Settings = None,
-                metadata_directory: Optional[str] = None) -> str:
+def build_wheel(
+    wheel_directory: str, config_settings: Settings = None, metadata_directory: Optional[str] = None
+) -> str:
     tree = built_tree()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)

@@ -1,10 +1,10 @@
 """Puts the shared libraries that not every Linux has into the package.
 
-auditwheel follows what extensions of Python need. Here the program and the node libraries need as much, and the program
-opens node libraries and Embree by itself; so every ELF file of the package is looked at, and Embree is named. A library
-gets a name with a digest of its content, so that nothing else in the process (another package's TBB, say) can be taken
-for it, and is found through $ORIGIN. All files name the same one: there is one libtbb in the process, with one pool of
-threads.
+auditwheel follows what extensions of Python need. Here the program and the node libraries need as much, and
+the program opens node libraries and Embree by itself; so every ELF file of the package is looked at, and
+Embree is named. A library gets a name with a digest of its content, so that nothing else in the process
+(another package's TBB, say) can be taken for it, and is found through $ORIGIN. All files name the same one:
+there is one libtbb in the process, with one pool of threads.
 """
 
 from __future__ import annotations
@@ -18,7 +18,9 @@ import sys
 from pathlib import Path
 
 # What a Linux has that runs Python: the C and C++ runtimes (PEP 600). Their versions are what the tag says.
-EVERYWHERE = re.compile(r"(ld-linux.*|libc|libm|libdl|librt|libpthread|libutil|libresolv|libgcc_s|libstdc\+\+)\.so\.\d+")
+EVERYWHERE = re.compile(
+    r"(ld-linux.*|libc|libm|libdl|librt|libpthread|libutil|libresolv|libgcc_s|libstdc\+\+)\.so\.\d+"
+)
 # Opened by name when a picture is drawn, so it keeps its name.
 OPENED = ["libembree3.so.3"]
 
@@ -67,11 +69,15 @@ def copy_licence(library: Path, folder: Path) -> None:
     """The terms of a library, where Debian's packages have them."""
     if shutil.which("dpkg-query") is None:
         return
+    path = str(library.resolve())
     # A library of /usr/lib may be recorded as one of /lib, its place before the two became one.
-    for path in (library.resolve(), Path("/lib") / library.resolve().relative_to("/usr/lib")
-                 if str(library.resolve()).startswith("/usr/lib/") else library):
-        answer = subprocess.run(["dpkg-query", "--search", str(path)], stdout=subprocess.PIPE,
-                                stderr=subprocess.DEVNULL, text=True)
+    for recorded in (path, path.removeprefix("/usr")):
+        answer = subprocess.run(
+            ["dpkg-query", "--search", recorded],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+        )
         if answer.returncode == 0:
             package = re.split(r"[:,]", answer.stdout)[0]
             terms = Path("/usr/share/doc", package, "copyright")
@@ -82,8 +88,8 @@ def copy_licence(library: Path, folder: Path) -> None:
 
 
 def bundle(package: Path, licences: Path) -> None:
-    """Copies libraries into `package`/lib and lets all files of `package` name and find them there; terms of the
-    libraries go into `licences`."""
+    """Copies libraries into `package`/lib and lets all files of `package` name and find them there; terms of
+    the libraries go into `licences`."""
     own = [path for path in sorted(package.rglob("*")) if path.is_file() and is_elf(path)]
     places: dict[str, Path] = {}
     for path in own:
