@@ -31,6 +31,7 @@ import ballflow as bf
 import functools, os, math
 import numpy as np
 import helpers
+from numpy.linalg import norm as length
 from package import inner
 
 def used(x):
@@ -73,11 +74,20 @@ def outer(k):
 
 closed = outer(4)
 
+add = np.add
+power = functools.partial(math.pow, 3.0)
+vector = np.vectorize(lambda x: x + 10)
+
+@functools.lru_cache(maxsize=None)
+def cached(x):
+    return x
+
 @bf.node
 def N(count: int = 1) -> bf.Balls:
     "What it does."
     import late
     f = [used(y) for y in range(LIMIT)]
+    add(cached(power(vector(length(1)))), 2)
     return model.apply(helpers.go(inner.go(decorated(closed(TABLE["a"])))))
 """
 HELPERS = "import more\ndef go(x):\n    return more.on(x)\n"
@@ -145,6 +155,14 @@ class Digests(unittest.TestCase):
         self.follows("    scale = 2.0", "    scale = 3.0")
         self.follows("model = Model()", "model = [Model()][0]")
 
+    def test_names_for_what_is_elsewhere(self) -> None:
+        self.follows("add = np.add", "add = np.subtract")
+        self.follows("norm as length", "det as length")
+        self.follows("math.pow, 3.0", "math.pow, 4.0")
+        self.follows("math.pow, 3.0", "math.atan2, 3.0")
+        self.follows("lambda x: x + 10", "lambda x: x + 11")
+        self.follows("def cached(x):\n    return x", "def cached(x):\n    return 2")
+
     def test_modules_of_ones_own(self) -> None:
         self.assertEqual(self.digest(START, helpers_py=HELPERS + "# more\n"), self.before)
         self.assertEqual(self.digest(START, unnamed_py="Z = 2\n"), self.before)
@@ -175,6 +193,15 @@ class Digests(unittest.TestCase):
             scope["R"].digest
         # In a file the statement says it.
         self.digest(START + textwrap.dedent(source) + cell, "R")
+
+    def test_classes_of_cells_count_by_what_they_hold(self) -> None:
+        scope: dict[str, Any] = {"bf": sys.modules["ballflow"], "__name__": "__main__"}
+        digests = set()
+        for scale in (1, 1, 2):
+            exec(f"class Config:\n    scale = {scale}\n", scope)
+            exec("@bf.node\ndef C() -> bf.Balls:\n    return Config.scale\n", scope)
+            digests.add(scope["C"].digest)
+        self.assertEqual(len(digests), 2)
 
     def test_a_cell_that_runs_again_counts(self) -> None:
         scope: dict[str, Any] = {"bf": sys.modules["ballflow"]}

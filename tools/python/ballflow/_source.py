@@ -7,7 +7,8 @@ The digest is the SHA-256 of a set of items, sorted. An item is one of
     class NAME TEXT        likewise, whole, with what its methods name
     value NAME TEXT        a global, a variable of an enclosing function, or a default that is plain data:
                            None, numbers, texts, bytes, paths, compiled patterns, arrays, and tuples, lists,
-                           sets and dicts of these; by content
+                           sets, dicts and dataclasses of these; by content. Or which module, function or class
+                           of another module it is
     statement NAME TEXT    the statements of the file that give a name to any other object
     module NAME TEXT       a module of one's own that one of them names (the whole package, if it is in one),
                            and every module of one's own that this imports, and so on
@@ -22,7 +23,9 @@ seen.
 from __future__ import annotations
 
 import ast
+import dataclasses
 import dis
+import enum
 import functools
 import hashlib
 import importlib.machinery
@@ -31,9 +34,11 @@ import importlib.util
 import inspect
 import json
 import linecache
+import logging
 import os
 import re
 import sys
+import threading
 import types
 from pathlib import Path, PurePath
 from typing import Any, Iterator, Optional
@@ -95,7 +100,8 @@ def _code_text(code: types.CodeType) -> str:
     """Of a function without a source file: its byte code, which differs between versions of Python."""
     parts = [code.co_code.hex(), repr(code.co_names), repr(code.co_varnames), repr(code.co_freevars)]
     for constant in code.co_consts:
-        parts.append(_code_text(constant) if isinstance(constant, types.CodeType) else repr(constant))
+        inner = isinstance(constant, types.CodeType)
+        parts.append(_code_text(constant) if inner else _plain(constant) or repr(constant))
     return "\n".join(parts)
 
 
@@ -169,6 +175,24 @@ def _plain(value: Any, depth: int = 0) -> Optional[str]:
     if kind is range or isinstance(value, np.dtype):
         return repr(value)
     return None
+
+
+_LOCKS = (type(threading.Lock()), type(threading.RLock()))
+
+
+def _home_of(value: Any, own: str) -> str:
+    """The module that a function in C, or what works like one, is an attribute of under its own name; "" where
+    it is of none."""
+    name = getattr(value, "__name__", None)
+    if not callable(value) or not isinstance(name, str):
+        return ""
+    said = str(getattr(value, "__module__", None))
+    homes: list[str] = [
+        module
+        for module, content in list(sys.modules.items())
+        if module not in (own, "__main__") and getattr(content, "__dict__", {}).get(name) is value
+    ]
+    return said if said in homes else min(homes, default="")
 
 
 @functools.lru_cache(maxsize=None)
@@ -248,6 +272,7 @@ class _Walk:
             self.add("value", name, text)
             return
         if isinstance(value, types.ModuleType):
+            self.add("value", name, f"module {value.__name__}")
             self.module(value.__name__)
             return
         if hasattr(value, "_ballflow_function"):  # another node
@@ -271,7 +296,7 @@ class _Walk:
             if value.__module__ == self.root.__module__:
                 self.class_(value)
             else:
-                self.module(value.__module__)
+                self.foreign(name, value)
             return
         if not self.is_new(value):
             return
@@ -300,11 +325,16 @@ class _Walk:
                 return
         self.object(name, value, scope)
 
+    def foreign(self, name: str, value: Any) -> None:
+        """A function or class of another module: which, and its module."""
+        self.add("value", name, f"{value.__module__}.{value.__qualname__}")
+        self.module(value.__module__ or "")
+
     def of_other_module(self, name: str, function: types.FunctionType, scope: dict[str, Any]) -> None:
         """Its module counts as a whole; but a decorator that came from there holds a function of ours."""
+        self.foreign(name, function)
         if not self.is_new(function):
             return
-        self.module(function.__module__ or "")
         if (function.__module__ or "").partition(".")[0] == "ballflow":
             return
         for cell in function.__closure__ or ():
@@ -318,50 +348,73 @@ class _Walk:
     def class_(self, cls: type) -> None:
         if not self.is_new(cls):
             return
+        scope = self.root.__globals__
         for base in cls.__bases__:
-            self.value(base.__name__, base, self.root.__globals__)
-        functions = [m for m in vars(cls).values() if isinstance(m, types.FunctionType)]
-        own = [f for f in functions if f.__globals__ is self.root.__globals__]
-        names = {f.__code__.co_filename for f in own} or {self.root.__code__.co_filename}
-        for filename in sorted(names):
-            tree = _parsed(_text_of(filename, self.root.__globals__))
+            self.value(base.__name__, base, scope)
+        methods = [member for member in vars(cls).values() if isinstance(member, types.FunctionType)]
+        files = {self.root.__code__.co_filename, *(method.__code__.co_filename for method in methods)}
+        found = False
+        for filename in sorted(files):
+            tree = _parsed(_text_of(filename, scope))
             for node in ast.walk(tree) if tree is not None else ():
                 if not isinstance(node, ast.ClassDef) or node.name != cls.__name__:
                     continue
+                found = True
                 self.add("class", cls.__qualname__, ast.unparse(node))
-                self.names(
-                    {inner.id for inner in ast.walk(node) if isinstance(inner, ast.Name)}, self.root.__globals__
-                )
-        for name, member in vars(cls).items():
-            if isinstance(member, (types.FunctionType, staticmethod, classmethod, property)):
-                self.value(f"{cls.__qualname__}.{name}", member, self.root.__globals__)
+                self.names({inner.id for inner in ast.walk(node) if isinstance(inner, ast.Name)}, scope)
+                for name in _imports_of(node, str(scope.get("__package__") or "")):
+                    self.module(name)
+        if found:
+            return
+        for name, member in vars(cls).items():  # made at a prompt, or by a function
+            if not name.startswith("__") or isinstance(member, types.FunctionType):
+                self.value(f"{cls.__qualname__}.{name}", member, scope)
+
+    def is_known(self, name: str, value: Any, scope: dict[str, Any]) -> bool:
+        """Objects of which something better is known than who made them."""
+        if isinstance(value, enum.Enum):
+            self.add("value", name, f"{type(value).__qualname__}.{value.name}")
+            self.value(type(value).__name__, type(value), scope)
+        elif isinstance(value, types.SimpleNamespace) or dataclasses.is_dataclass(value):
+            for field, part in sorted(vars(value).items()):
+                self.value(f"{name}.{field}", part, scope)
+            self.value(type(value).__name__, type(value), scope)
+        elif type(value).__module__ == "typing" or isinstance(value, (logging.Logger, *_LOCKS)):
+            pass  # no result depends on it
+        else:
+            home = _home_of(value, self.root.__module__)
+            if not home:
+                return False
+            self.add("value", name, f"{home.partition('.')[0]}.{value.__name__}")
+            self.module(home)
+            for statement in self.statements_of(name, scope):
+                self.add("statement", name, ast.unparse(statement))
+        return True
+
+    def statements_of(self, name: str, scope: dict[str, Any]) -> list[ast.stmt]:
+        """The statements of the file of the node that give something to a global name."""
+        statements: list[ast.stmt] = []
+        tree = _parsed(_text_of(self.root.__code__.co_filename, self.root.__globals__))
+        if scope is not self.root.__globals__ or tree is None:
+            return statements
+        for statement in tree.body:
+            if isinstance(statement, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)):
+                continue
+            inner = list(ast.walk(statement))
+            bound = {node.id for node in inner if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)}
+            for node in inner:
+                if isinstance(node, (ast.Import, ast.ImportFrom)):
+                    bound |= {alias.asname or alias.name.partition(".")[0] for alias in node.names}
+            if name in bound:
+                statements.append(statement)
+        return statements
 
     def object(self, name: str, value: Any, scope: dict[str, Any]) -> None:
         """Neither code nor data: the statements that make it count, and the module of its class."""
-        made_by = type(value).__module__
-        module = getattr(value, "__module__", None)
-        self.module(module if callable(value) and isinstance(module, str) else made_by)
-        if made_by == "typing" or (callable(value) and made_by in ("builtins", "numpy", "types")):
+        if self.is_known(name, value, scope):
             return
-        statements = []
-        tree = _parsed(_text_of(self.root.__code__.co_filename, self.root.__globals__))
-        if scope is self.root.__globals__ and tree is not None:
-            for statement in tree.body:
-                if isinstance(statement, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)):
-                    continue
-                bound = {
-                    node.id
-                    for node in ast.walk(statement)
-                    if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
-                }
-                bound |= {
-                    alias.asname or alias.name.partition(".")[0]
-                    for node in ast.walk(statement)
-                    if isinstance(node, (ast.Import, ast.ImportFrom))
-                    for alias in node.names
-                }
-                if name in bound:
-                    statements.append(statement)
+        self.module(type(value).__module__)
+        statements = self.statements_of(name, scope)
         if not statements:
             raise ValueError(
                 f"{self.root.__name__} uses {name}, a {type(value).__name__}, and nothing says what it is made "
