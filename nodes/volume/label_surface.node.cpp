@@ -32,13 +32,15 @@ struct LabelSurface {
   LabelSurfaceOptions options;
 
   static void declare(NodeDecl<LabelSurface>& d) {
-    d.id("LabelSurface", 1).summary("The closed surface of a label in a segmented image.");
+    d.id("LabelSurface", 2).summary("The closed surface of a label in a segmented image.");
     d.doc(
         "Reads NRRD (header and data in one file) and NIfTI-1 (.nii), also packed with gzip or zstd, and "
-        "makes the "
-        "mesh that separates voxels with the label from the others: closed, manifold, outward oriented, in "
-        "the "
-        "coordinates of the file, with its spacing and orientation. Vertices lie halfway between centers of "
+        "makes the mesh that separates voxels with the label from the others: closed, manifold, outward "
+        "oriented. One image in both formats has one place: x to the right of the patient, y to the front, z "
+        "to the head (RAS+), millimetres; NRRD images in another space of patients are turned. Where the "
+        "file "
+        "does not say where the patient is, its axes stay, and the field frame of the summary tells. "
+        "Vertices lie halfway between centers of "
         "voxels; nothing is smoothed. Refuses other formats (DICOM, MetaImage, Analyze, NIfTI-2) by their "
         "names, "
         "damaged files, values that are no whole numbers, and a label that is not there, with those that "
@@ -47,7 +49,7 @@ struct LabelSurface {
     d.cites("kornberger2010", "6.3.1");
     d.memory(std::uint64_t{256} << 20, 0);
     d.output("points", &LabelSurface::points).doc("the vertices of the mesh");
-    d.output("mesh", &LabelSurface::mesh).doc("the surface, in the units of the file");
+    d.output("mesh", &LabelSurface::mesh).doc("the surface, in millimetres where the file has a unit");
     d.param("file", &LabelSurface::file)
         .file()
         .scheme("labels:")
@@ -62,8 +64,9 @@ struct LabelSurface {
     if (file.starts_with("labels:") && file != "labels:ball") {
       throw InputError("there is no image \"" + file + "\"", "name a file, or labels:ball");
     }
-    TriangleMesh surface = label_surface(
-        file == "labels:ball" ? ball_volume() : read_label_volume(file, monitor), options, monitor);
+    const LabelVolume volume = file == "labels:ball" ? ball_volume() : read_label_volume(file, monitor);
+    TriangleMesh surface = label_surface(volume, options, monitor);
+    mesh.summary("frame", volume.frame);
     points = PointSet{surface.vertices, {}};
     mesh = std::move(surface);
   }

@@ -146,6 +146,46 @@ std::optional<Number> nrrd_number(const std::string& type) {
   return std::nullopt;
 }
 
+void scale_by(LabelVolume& volume, double factor) {
+  volume.origin = factor * volume.origin;
+  for (Vec3& step : volume.steps) step = factor * step;
+}
+
+/// From a space of NRRD to patient_frame; a space that says nothing of a patient stays.
+void turn_from(LabelVolume& volume, std::string space) {
+  for (char& c : space)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  Vec3 signs;
+  if (space == "right-anterior-superior" || space == "ras") {
+    signs = {1, 1, 1};
+  } else if (space == "left-anterior-superior" || space == "las") {
+    signs = {-1, 1, 1};
+  } else if (space == "left-posterior-superior" || space == "lps") {
+    signs = {-1, -1, 1};
+  } else {
+    volume.frame = space.empty() ? "the axes of a file without space" : "the axes of space " + space;
+    return;
+  }
+  const auto turned = [&](Vec3 p) {
+    return Vec3{signs.x * p.x, signs.y * p.y, signs.z * p.z} + Vec3{0, 0, 0};  // no -0
+  };
+  volume.origin = turned(volume.origin);
+  for (Vec3& step : volume.steps) step = turned(step);
+  volume.frame = patient_frame;
+}
+
+/// Millimetres of a unit of NRRD, which stands in quotes, once for each axis; 1 where it is not known.
+double millimetres_of(const std::string& units) {
+  const std::size_t open = units.find('"');
+  if (open == std::string::npos) return 1;
+  const std::string unit = units.substr(open + 1, units.find('"', open + 1) - open - 1);
+  static const std::vector<std::pair<const char*, double>> known = {
+      {"m", 1e3}, {"cm", 10}, {"mm", 1}, {"um", 1e-3}, {"\u00b5m", 1e-3}, {"micron", 1e-3}, {"nm", 1e-6}};
+  for (const auto& [name, factor] : known)
+    if (unit == name) return factor;
+  return 1;
+}
+
 LabelVolume parse_nrrd(std::string_view content, Monitor& monitor) {
   std::vector<std::pair<std::string, std::string>> fields;
   std::size_t at = content.find('\n');
@@ -205,6 +245,10 @@ LabelVolume parse_nrrd(std::string_view content, Monitor& monitor) {
     damaged("the NRRD header has neither three space directions nor three spacings");
   }
   if (origin.size() == 3) volume.origin = {origin[0], origin[1], origin[2]};
+  if (directions.size() == 9) {
+    scale_by(volume, millimetres_of(field("space units")));
+    turn_from(volume, field("space"));
+  }
   require_space(volume);
   const std::string encoding = field("encoding");
   if (encoding == "raw" || encoding == "gzip" || encoding == "gz") {
@@ -289,6 +333,9 @@ LabelVolume parse_nifti(std::string_view content, bool swapped, Monitor& monitor
   } else {
     volume.steps = {Vec3{real(80), 0, 0}, {0, real(84), 0}, {0, 0, real(88)}};
   }
+  if (whole(254) > 0 || whole(252) > 0) volume.frame = patient_frame;
+  const int unit = static_cast<unsigned char>(head[123]) & 7;
+  scale_by(volume, unit == 1 ? 1e3 : unit == 3 ? 1e-3 : 1);
   require_space(volume);
   const double offset = real(108);
   if (!(offset >= 348 && offset <= static_cast<double>(content.size())))

@@ -12,11 +12,17 @@
 
 namespace ballflow::geometry {
 
+/// The frame that all images are brought to which say where the patient is: x grows to the right of the
+/// patient, y to the front, z to the head (RAS+), millimetres.
+inline constexpr const char* patient_frame = "right, front, head of the patient";
+
 struct LabelVolume {
   std::array<std::int64_t, 3> size{};  // voxels along the three axes of the grid, each at least 1
-  Vec3 origin;                         // the center of voxel (0, 0, 0), in the units of the file
+  Vec3 origin;                         // the center of voxel (0, 0, 0), millimetres where the unit is known
   std::array<Vec3, 3> steps;           // from a voxel to the next one along each axis; they span space
-  std::vector<std::int32_t> labels;    // of voxel (i, j, k) at (k size[1] + j) size[0] + i; 0: nothing
+  // What the axes x, y, z of space are, in words: patient_frame, or why that is not known.
+  std::string frame = "the axes of the grid";
+  std::vector<std::int32_t> labels;  // of voxel (i, j, k) at (k size[1] + j) size[0] + i; 0: nothing
 
   Vec3 place(Vec3 voxel) const {
     return origin + voxel.x * steps[0] + voxel.y * steps[1] + voxel.z * steps[2];
@@ -28,8 +34,13 @@ struct LabelVolume {
 ///   - three dimensions; more where their size is 1
 ///   - integers of 8, 16 and 32 bits of both byte orders, and floating numbers that are whole
 ///   - NRRD: space directions and space origin, else spacings, else 1. NIfTI: the sform, else the qform, else
-///     pixdim; slope and intercept. Coordinates are those that the file means: NIfTI's x points to the right,
-///     y to the front and z up; those of NRRD are in its `space`, often left, back and up.
+///     pixdim; slope and intercept
+///
+/// One image in both formats lies in one place, in patient_frame: NRRD images whose `space` is
+/// left-posterior-superior or left-anterior-superior are turned, signs of x and y and of x; NIfTI is in that
+/// frame by its definition. Metres, centimetres, micrometres and nanometres become millimetres (NRRD `space
+/// units`, NIfTI xyzt_units), other and missing units stay. Other spaces of NRRD, and images with spacings
+/// alone, keep the axes that they have, and `frame` says so.
 ///
 /// Throws InputError for other formats (DICOM, MetaImage, Analyze, MINC, NIfTI of two files, NIfTI-2, NRRD
 /// with detached data) by their names, for files that are cut off or damaged, axes that span no space,

@@ -100,6 +100,7 @@ std::string mesh(const Json& s) {
   text += s.value("closed", false) ? "closed" : "open";
   if (!s.value("manifold", true)) text += ", not manifold";
   if (s.contains("genus") && s.at("genus").is_number()) text += ", genus " + number(s, "genus");
+  if (s.contains("frame")) text += "; x, y, z: " + s.at("frame").get<std::string>();
   if (s.contains("folded_triangles")) {  // an instance of a model
     if (s.at("folded_triangles") != 0) text += ", " + counted(s, "folded_triangles", "triangle") + " FOLDED";
     if (s.at("self_intersections") != 0) text += ", " + counted(s, "self_intersections", "self-intersection");

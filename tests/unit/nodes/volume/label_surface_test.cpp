@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/random.hpp"
@@ -189,8 +190,10 @@ TEST(LabelVolume, nrrd_is_read_in_all_its_encodings) {
     const LabelVolume read = parse_label_volume(file);
     EXPECT_EQ(read.size, v.size);
     EXPECT_TRUE(read.labels == v.labels);
-    EXPECT_EQ(read.origin, (Vec3{10, -20, 30}));
-    EXPECT_EQ(read.steps[1], (Vec3{0, 0.7, 0.2}));
+    // Left and back are minus right and minus front.
+    EXPECT_EQ(read.origin, (Vec3{-10, 20, 30}));
+    EXPECT_EQ(read.steps[1], (Vec3{0, -0.7, 0.2}));
+    EXPECT_EQ(read.frame, patient_frame);
   }
   const LabelVolume spaced = parse_label_volume(
       nrrd(v, "uchar", "raw", bytes_of_all<std::uint8_t>(v.labels), "spacings: 0.5 0.5 3\n"));
@@ -229,6 +232,71 @@ TEST(LabelVolume, nifti_is_read_in_both_byte_orders_with_either_orientation) {
   scaled.put<float>(112, 2);
   scaled.put<float>(116, 1);
   EXPECT_EQ(parse_label_volume(scaled.bytes + bytes_of_all<std::uint8_t>(v.labels)).labels[0], 1);
+}
+
+TEST(LabelVolume, one_image_in_both_formats_lies_in_one_place) {
+  const LabelVolume v = two_boxes();
+  const std::string data = bytes_of_all<std::uint8_t>(v.labels);
+  // Powers of two: the same numbers in text and in floats of 4 bytes.
+  Header matrix = nifti(v, 2, false);
+  matrix.put<std::int16_t>(254, 1);
+  const std::array<float, 12> rows{-0.5F, 0.25F, 0, -16, 0.125F, 2, 0, 32, 0, -0.5F, 4, 64};
+  for (std::size_t k = 0; k < 12; ++k) matrix.put<float>(280 + 4 * k, rows[k]);
+  const LabelVolume right = parse_label_volume(matrix.bytes + data);
+  EXPECT_EQ(right.frame, patient_frame);
+  const TriangleMesh truth = label_surface(right, {7});
+  struct Space {
+    const char* name;
+    double x, y;
+  };
+  for (const Space& space : {Space{"left-posterior-superior", -1, -1},
+                             {"LPS", -1, -1},
+                             {"left-anterior-superior", -1, 1},
+                             {"right-anterior-superior", 1, 1},
+                             {"RAS", 1, 1}}) {
+    std::string place = "space directions:";
+    for (std::size_t a = 0; a < 3; ++a) {
+      const Vec3 step = right.steps[a];
+      place += " (" + std::to_string(space.x * step.x) + "," + std::to_string(space.y * step.y) + "," +
+               std::to_string(step.z) + ")";
+    }
+    place += "\nspace origin: (" + std::to_string(space.x * right.origin.x) + "," +
+             std::to_string(space.y * right.origin.y) + "," + std::to_string(right.origin.z) + ")\n";
+    std::string file = nrrd(v, "uchar", "raw", data, place);
+    const std::string usual = "left-posterior-superior";
+    file.replace(file.find(usual), usual.size(), space.name);
+    const LabelVolume read = parse_label_volume(file);
+    EXPECT_EQ(read.frame, patient_frame) << space.name;
+    EXPECT_EQ(read.origin, right.origin) << space.name;
+    EXPECT_EQ(read.steps, right.steps) << space.name;
+    const TriangleMesh mesh = label_surface(read, {7});
+    EXPECT_TRUE(mesh.vertices == truth.vertices && mesh.triangles == truth.triangles) << space.name;
+  }
+}
+
+TEST(LabelVolume, units_become_millimetres_and_unknown_frames_are_told) {
+  const LabelVolume v = two_boxes();
+  const std::string data = bytes_of_all<std::uint8_t>(v.labels);
+  Header metres = nifti(v, 2, false);
+  metres.bytes[123] = 1;
+  EXPECT_EQ(parse_label_volume(metres.bytes + data).steps[0], (Vec3{500, 0, 0}));
+  metres.bytes[123] = 3 | 16;  // micrometres and milliseconds
+  EXPECT_EQ(parse_label_volume(metres.bytes + data).steps[0], (Vec3{0.5e-3, 0, 0}));
+  EXPECT_NE(parse_label_volume(metres.bytes + data).frame, patient_frame);  // neither sform nor qform
+  const std::string place = "space directions: (2,0,0) (0,2,0) (0,0,2)\n";
+  for (const auto& [units, factor] :
+       {std::pair{"\"m\" \"m\" \"m\"", 1e3}, {"\"um\" \"um\" \"um\"", 1e-3}, {"\"voxels\"", 1.0}}) {
+    const LabelVolume read = parse_label_volume(
+        nrrd(v, "uchar", "raw", data, place + "space units: " + std::string(units) + "\n"));
+    EXPECT_EQ(read.steps[2], (Vec3{0, 0, factor * 2})) << units;
+  }
+  std::string other = nrrd(v, "uchar", "raw", data, place);
+  const std::string usual = "left-posterior-superior";
+  other.replace(other.find(usual), usual.size(), "scanner-xyz");
+  EXPECT_EQ(parse_label_volume(other).frame, "the axes of space scanner-xyz");
+  EXPECT_EQ(parse_label_volume(other).steps[0], (Vec3{2, 0, 0}));
+  EXPECT_EQ(parse_label_volume(nrrd(v, "uchar", "raw", data, "spacings: 1 1 1\n")).frame,
+            "the axes of the grid");
 }
 
 TEST(LabelVolume, what_is_damaged_or_of_another_kind_is_refused_by_name) {
