@@ -261,6 +261,16 @@ TEST_F(NoisyTest, another_result_for_the_same_key_is_a_loud_warning_or_exit_3_wh
   EXPECT_EQ(report().at("outputs").at("later").at("digest"), digest);
 }
 
+TEST_F(NoisyTest, a_library_may_be_named_behind_the_command) {
+  test::write_file(folder.file("noisy.json"), R"({"nodes": { "clock": { "type": "Clock" } },
+    "outputs": { "now": "clock.now" } })");
+  const std::string library = test::binary_file("tests/cli/noisy.so");
+  EXPECT_EQ(ballflow({"run", folder.file("noisy.json"), "--plugin", library, "--quiet"}).exit_code, 0);
+  const ProcessResult wrong = ballflow({"run", folder.file("noisy.json"), "--plugins", library});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_NE(wrong.err.find("--plugins"), std::string::npos) << wrong.err;
+}
+
 TEST_F(NoisyTest, the_determinism_check_names_the_element) {
   const ProcessResult result = run_noisy(1, {"--check-determinism"});
   EXPECT_EQ(result.exit_code, 3);

@@ -20,6 +20,7 @@ def own_folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("BALLFLOW_CACHE", str(tmp_path / "cache"))
     monkeypatch.delenv("BALLFLOW_PLUGIN_PATH", raising=False)
+    monkeypatch.setenv("BALLFLOW_PYTHON", sys.executable)
     return tmp_path
 
 

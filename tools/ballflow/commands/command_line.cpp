@@ -59,7 +59,8 @@ Option& Option::one_of(std::initializer_list<const char*> values) {
 }
 
 Command Command::subcommand(const std::string& name, const std::string& description) const {
-  return Command(app_->add_subcommand(name, description));
+  // What is said of the program may stand behind the command, too: ballflow run graph.json --plugin x.so
+  return Command(app_->add_subcommand(name, description)->fallthrough());
 }
 
 void Command::requires_subcommand() const { app_->require_subcommand(1); }
