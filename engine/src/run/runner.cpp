@@ -4,6 +4,9 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
 
 #include "base/process_usage.hpp"
 #include "base/usable.hpp"
@@ -124,6 +127,40 @@ void Runner::Impl::message(std::size_t i, bool warning, const std::string& text)
   emit(std::move(event));
 }
 
+/// Nodes with the same type, parameters and inputs, found before anything has run: a subgraph that is there
+/// twice. One of them computes; what it made stays in memory until the others have settled and taken it over,
+/// or else they would compute it again where no store has it. Twins are ready at the same time, so that is
+/// soon.
+void Runner::Impl::find_twins() {
+  std::map<std::string, std::size_t> first;  // of each kind of computation, its first node
+  std::vector<std::size_t> same_as(dag_.nodes.size());
+  for (std::size_t i = 0; i < dag_.nodes.size(); ++i) {
+    same_as[i] = i;
+    const DagNode& node = dag_.nodes[i];
+    if (node.kind.declared() == nullptr) continue;  // loops and artifacts: each is its own
+    Json computation = {{"type", node.kind.type()},
+                        {"version", node.kind.version()},
+                        {"params", node.params},
+                        {"inputs", Json::object()}};
+    for (const auto& [port, edge] : node.inputs)
+      computation["inputs"][port] = {same_as[edge.node], edge.port};
+    same_as[i] = first.emplace(computation.dump(), i).first->second;
+  }
+  std::map<std::size_t, std::vector<std::size_t>> groups;
+  for (std::size_t i = 0; i < dag_.nodes.size(); ++i) {
+    if (needed_[i]) groups[same_as[i]].push_back(i);
+  }
+  for (const auto& [node, group] : groups) {
+    for (const std::size_t i : group) {
+      for (const std::size_t twin : group) {
+        if (twin == i) continue;
+        states_[i]->twins.push_back(twin);
+        ++states_[i]->consumers_left;
+      }
+    }
+  }
+}
+
 /// False when the plan became void and everything has to be looked at again.
 bool Runner::Impl::run_once() {
   const std::vector<NodeResult> before = std::move(result_.nodes);
@@ -154,6 +191,7 @@ bool Runner::Impl::run_once() {
     }
     if (producers.empty()) ready.push_back(i);
   }
+  find_twins();
 
   const bool several = options_.threads > 1;
   tbb::task_arena arena(static_cast<int>(options_.threads), several ? 0 : 1);

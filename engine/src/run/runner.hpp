@@ -55,8 +55,9 @@ class Runner::Impl {
     std::map<std::string, ArtifactPtr> held;  // by port; guarded by mutex
     std::optional<Digest> key;
     std::vector<std::size_t> consumers;  // needed nodes that read an output, each once
+    std::vector<std::size_t> twins;      // other needed nodes that compute the same from the same
     std::size_t inputs_missing = 0;      // guarded by mutex_
-    std::size_t consumers_left = 0;      // guarded by mutex_
+    std::size_t consumers_left = 0;      // and twins; guarded by mutex_
     bool admitted = false;               // it has got its memory from the budget
     bool told_key = false;               // that another process computes the same
     std::atomic<std::int64_t> last_progress{0};
@@ -77,6 +78,7 @@ class Runner::Impl {
   void emit(Event event) noexcept;
   void message(std::size_t i, bool warning, const std::string& text);
   bool run_once();
+  void find_twins();
   void name_what_did_not_run();
 
   // scheduler.cpp

@@ -288,6 +288,9 @@ bool Runner::Impl::settle(std::size_t i, NodeStatus status, const std::string& r
     for (const std::size_t producer : producers_of(i)) {
       if (--states_[producer]->consumers_left == 0) done_with.push_back(producer);
     }
+    for (const std::size_t twin : states_[i]->twins) {
+      if (--states_[twin]->consumers_left == 0) done_with.push_back(twin);
+    }
   }
   for (const std::size_t follower : followers) {
     if (good) {
@@ -298,7 +301,7 @@ bool Runner::Impl::settle(std::size_t i, NodeStatus status, const std::string& r
     result_.nodes[follower].hint = result_.nodes[i].hint;
     settle(follower, status, reason);
   }
-  if (states_[i]->consumers.empty()) done_with.push_back(i);
+  if (states_[i]->consumers.empty() && states_[i]->twins.empty()) done_with.push_back(i);
   for (const std::size_t node : done_with) forget(node);
   for (const std::size_t consumer : ready) {
     if (!stopping() && !stop_starting_.load()) dispatch(consumer);

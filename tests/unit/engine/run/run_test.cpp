@@ -266,6 +266,29 @@ TEST_F(RunTest, equal_computations_run_once_without_a_store_too) {
   EXPECT_EQ(result.nodes[later].status, hit);
 }
 
+TEST_F(RunTest, a_part_of_the_graph_that_is_there_twice_runs_once_without_a_store) {
+  for (const unsigned threads : {1U, 4U}) {
+    for (const bool of_first : {false, true}) {
+      Dag dag;
+      std::vector<std::size_t> sources, rounded;
+      for (const char* part : {"a", "b"}) {
+        sources.push_back(node(dag, std::string(part) + "_source", "Source"));
+        rounded.push_back(
+            node(dag, std::string(part) + "_round", "Round", {{"numbers", {sources.back(), "numbers"}}}));
+      }
+      // What one of the sources made is read again after all that reads the other has ended.
+      const std::size_t read = sources[of_first ? 0 : 1], done = rounded[of_first ? 1 : 0];
+      const auto wait = node(dag, "wait", "Slow", {{"numbers", {done, "rounded"}}}, {{"seconds", 0.01}});
+      const auto sum = node(dag, "sum", "Add", {{"a", {wait, "numbers"}}, {"b", {read, "numbers"}}});
+      dag.outputs.push_back({"sum", "", {sum, "sum"}});
+      toy::reset();
+      const RunResult result = run(dag, Store::open({}), threads);
+      EXPECT_EQ(result.status, ExitCode::ok);
+      EXPECT_EQ(toy::counters.source, 1) << threads << ' ' << of_first;
+    }
+  }
+}
+
 TEST_F(RunTest, a_file_that_changes_before_it_is_read_leaves_no_entry) {
   Dag dag;
   test::write_file(folder.file("number.txt"), "1");
