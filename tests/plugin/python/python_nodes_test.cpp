@@ -493,6 +493,7 @@ def Other() -> bf.Balls:
   file("go_on", "");
   first.join();
   EXPECT_EQ(status, BF_OK) << waiting.cause;
+  EXPECT_GT(registry->node("Wait")->memory_fixed, 10'000'000u) << "a process has its size";
   // What waits still has the file as it was.
   EXPECT_EQ(other.execute(*registry->node("Other")), BF_OK);
 }

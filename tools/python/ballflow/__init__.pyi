@@ -1666,6 +1666,8 @@ class ShapePrior(Artifact):
         radii: k f64: geometric means, model units
         points: m x 3 f64, optional: of the mean surface, model units
         normals: m x 3 f64, optional: of the mean surface, of length 1
+        vertices: v x 3 f64, optional: of the template's surface where the mean has it, model units
+        triangles: t x 3 i32, optional: of the template's surface, v indices
         point_share: one number f64: weight of the points in the metric; the rest is the balls'
         radius_unit: one number f64: length that a change of log r by 1 counts as, model units
         along: one number f64: weight of displacements of points along the surface
@@ -1693,6 +1695,7 @@ class ShapePrior(Artifact):
         balls: number of balls of each
         points: number of surface points of each
         modes: number of modes
+        triangles: of the mesh of the mean; 0: none
         bbox: bounding box of the mean's centers, model units
         compactness: part of the variance in the first modes: of 1, of 2, ...
         deviations: root of the variance of each mode, model units
@@ -1703,7 +1706,7 @@ class ShapePrior(Artifact):
         specificity_deviation: its standard deviation
         measured_to: what the distances of generalization are measured to
     """
-    def __init__(self, *, centers: ArrayLike, radii: ArrayLike, points: Optional[ArrayLike] = None, normals: Optional[ArrayLike] = None, point_share: ArrayLike, radius_unit: ArrayLike, along: ArrayLike, modes: Optional[ArrayLike] = None, point_modes: Optional[ArrayLike] = None, variances: Optional[ArrayLike] = None, total_variance: ArrayLike, scores: Optional[ArrayLike] = None, poses: ArrayLike, distances: ArrayLike, generalization: Optional[ArrayLike] = None, generalization_deviation: Optional[ArrayLike] = None, specificity: Optional[ArrayLike] = None, specificity_deviation: Optional[ArrayLike] = None, measure: ArrayLike, scaled: ArrayLike) -> None: ...
+    def __init__(self, *, centers: ArrayLike, radii: ArrayLike, points: Optional[ArrayLike] = None, normals: Optional[ArrayLike] = None, vertices: Optional[ArrayLike] = None, triangles: Optional[ArrayLike] = None, point_share: ArrayLike, radius_unit: ArrayLike, along: ArrayLike, modes: Optional[ArrayLike] = None, point_modes: Optional[ArrayLike] = None, variances: Optional[ArrayLike] = None, total_variance: ArrayLike, scores: Optional[ArrayLike] = None, poses: ArrayLike, distances: ArrayLike, generalization: Optional[ArrayLike] = None, generalization_deviation: Optional[ArrayLike] = None, specificity: Optional[ArrayLike] = None, specificity_deviation: Optional[ArrayLike] = None, measure: ArrayLike, scaled: ArrayLike) -> None: ...
     @property
     def centers(self) -> NDArray[np.float64]: ...
     @property
@@ -1712,6 +1715,10 @@ class ShapePrior(Artifact):
     def points(self) -> Optional[NDArray[np.float64]]: ...
     @property
     def normals(self) -> Optional[NDArray[np.float64]]: ...
+    @property
+    def vertices(self) -> Optional[NDArray[np.float64]]: ...
+    @property
+    def triangles(self) -> Optional[NDArray[np.int32]]: ...
     @property
     def point_share(self) -> NDArray[np.float64]: ...
     @property

@@ -304,6 +304,8 @@ class NodeFunction:
             "summary": reading.doc.split("\n", 1)[0] or f"A node of {_source.location(function)}.",
             "doc": reading.doc or "Its function has no docstring.",
             "uses_seed": bool(seed),
+            # A process with numpy; its inputs in memory that it shares, and outputs of about their size.
+            "memory": {"fixed": 40e6, "per_input_byte": 2.0},
             "inputs": ports,
             "outputs": [reading.port(name, value, True) for name, value in outputs.items()],
             "params": params,

@@ -492,11 +492,13 @@ class ChooseTemplateOutputs(NamedTuple):
     samples: PointSet
     inner: Balls
     points: PointSet
+    mesh: TriangleMesh
 
 def choose_template(
     samples: Sequence[Union[PointSet, ArtifactLike]] = ...,
     inner: Sequence[Union[Balls, ArtifactLike]] = ...,
     points: Sequence[Union[PointSet, ArtifactLike]] = ...,
+    meshes: Sequence[Union[TriangleMesh, ArtifactLike]] = ...,
     *,
     instance: int = -1,
     cache: Cache = False,
@@ -519,11 +521,13 @@ def choose_template(
         samples (PointSet, several in order): of the surface of each shape, evenly spread
         inner (Balls, several in order): inner balls of each shape, in the same order
         points (PointSet, several in order): the samples that the inner balls are about, likewise
+        meshes (TriangleMesh, several in order, optional): surface of each shape, likewise
 
     Outputs:
         samples (PointSet): those of the template
         inner (Balls): those of the template
         points (PointSet): those of the template
+        mesh (TriangleMesh): that of the template; empty without meshes
 
     Parameters:
         instance (integer, default -1, number, >= -1, <= 1000000): which one, from 0 on; -1: the medoid
@@ -1373,17 +1377,19 @@ def label_surface(
     """The closed surface of a label in a segmented image.
 
     Reads NRRD (header and data in one file) and NIfTI-1 (.nii), also packed with gzip or zstd, and makes
-      the mesh that separates voxels with the label from the others: closed, manifold, outward oriented, in
-      the coordinates of the file, with its spacing and orientation. Vertices lie halfway between centers of
-      voxels; nothing is smoothed. Refuses other formats (DICOM, MetaImage, Analyze, NIfTI-2) by their
-      names, damaged files, values that are no whole numbers, and a label that is not there, with those that
-      are.
+      the mesh that separates voxels with the label from the others: closed, manifold, outward oriented. One
+      image in both formats has one place: x to the right of the patient, y to the front, z to the head
+      (RAS+), millimetres; NRRD images in another space of patients are turned. Where the file does not say
+      where the patient is, its axes stay, and the field frame of the summary tells. Vertices lie halfway
+      between centers of voxels; nothing is smoothed. Refuses other formats (DICOM, MetaImage, Analyze,
+      NIfTI-2) by their names, damaged files, values that are no whole numbers, and a label that is not
+      there, with those that are.
 
     When not to use it: the image has grey values: threshold or segment it before.
 
     Outputs:
         points (PointSet): the vertices of the mesh
-        mesh (TriangleMesh): the surface, in the units of the file
+        mesh (TriangleMesh): the surface, in millimetres where the file has a unit
 
     Parameters:
         file (file, required): a label image (.nrrd, .nii, .nii.gz), or labels:ball for a generated one
@@ -2969,9 +2975,52 @@ def shape_instance(
     ...
 
 
+def shape_mesh(
+    prior: Union[ShapePrior, ArtifactLike],
+    fit: Optional[Union[ShapeFit, ArtifactLike]] = None,
+    *,
+    modes: str = '',
+    cache: Cache = False,
+    threads: int = 0,
+    memory: Union[str, int, None] = None,
+    seed: int = 0,
+    progress: Progress = None,
+) -> TriangleMesh:
+    """The mesh of an instance or a fit of a model, with the template's triangles.
+
+    The surface of the shape that the model's template is made of, its vertices drawn along a smooth map
+      (polyharmonic spline) from the mean's surface points to those of the instance. The triangles are the
+      template's own, and so are genus and number of pieces: a thin blade stays in one piece where its balls
+      do not touch. What such a mesh can do is fold, and that is looked for: the summary says how many
+      triangles are turned inside out, how many pairs cross and how many of these the mean has already, the
+      volume, and how far the vertices are from the union of the balls; a warning says it in words. Of a
+      model without a mesh it makes an empty one, with a warning.
+
+    When not to use it: a surface of the balls themselves is wanted, within a bound: BallMesh, which says so
+      and whose pieces are those of the union.
+
+    Inputs:
+        prior (ShapePrior): mean and modes, with a mesh of the mean
+        fit (ShapeFit, optional): whose scores and pose are taken; then no modes
+
+    Outputs:
+        mesh (TriangleMesh): in the coordinates of the model, or of what was fitted; the triangles of the
+          template
+
+    Parameters:
+        modes (string, default ""): standard deviations of the first modes, 2,-1 or a JSON list; the others
+          are 0; empty: the mean
+
+    Sources: cootes1995, shapes by their scores; duchon1977, the interpolant
+    """
+    ...
+
+
 def shape_prior(
     instances: Sequence[Union[MatchedBalls, ArtifactLike]] = ...,
     meshes: Sequence[Union[TriangleMesh, ArtifactLike]] = ...,
+    surface: Optional[Union[TriangleMesh, ArtifactLike]] = None,
+    surface_points: Optional[Union[PointSet, ArtifactLike]] = None,
     *,
     balls: Literal['carried', 'replaced'] = 'carried',
     scale: bool = False,
@@ -3005,6 +3054,10 @@ def shape_prior(
         instances (MatchedBalls, several in order): matched to one template, as many balls and points each
         meshes (TriangleMesh, several in order, optional): surfaces of the instances in their order, for
           distances of the evaluation; else these are measured to tangent planes
+        surface (TriangleMesh, optional): the template's own: it goes with the model, so that instances have
+          meshes with its triangles; see ShapeMesh
+        surface_points (PointSet, optional): the template's, which all instances were matched with: they
+          tell where its surface goes
 
     Outputs:
         prior (ShapePrior): mean, modes, scores of the instances, evaluation

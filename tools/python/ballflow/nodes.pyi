@@ -260,6 +260,10 @@ class ShapeInstance(NodeType):
     """An instance of a model of a shape, as balls and as surface points."""
     ...
 
+class ShapeMesh(NodeType):
+    """The mesh of an instance or a fit of a model, with the template's triangles."""
+    ...
+
 class ShapePrior(NodeType):
     """Learns how a shape varies from several instances of it: mean, modes, and how good they are."""
     ...
