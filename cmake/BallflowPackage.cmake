@@ -39,5 +39,5 @@ else()
 endif()
 # For nodes in Python; for who builds against the headers and static libraries.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
-  "python3-numpy, cmake, g++, nlohmann-json3-dev, libtbb-dev, libcgal-dev, libboost-dev, libssl-dev, libzstd-dev, zlib1g-dev")
+  "python3-numpy, cmake, g++, nlohmann-json3-dev, libtbb-dev, libcgal-dev, libboost-dev, libcurl4-openssl-dev, libssl-dev, libzstd-dev, zlib1g-dev")
 include(CPack)

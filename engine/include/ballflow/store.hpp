@@ -122,7 +122,12 @@ class Store {
 
   /// A damaged, truncated or foreign entry (another key, another format) is a miss. Its blobs may be missing.
   /// Counts as a use of the entry, and so of its blobs. Asks the upstream when it is not here.
+  /// Where the upstream is the transport, an entry counts when it is upstream with all its blobs; what is
+  /// here is published for that.
   std::optional<ActionEntry> find_action(const Digest& key);
+  /// find_action() for an entry that must be there: asks the upstream again for as long as
+  /// UpstreamUse::patience.
+  std::optional<ActionEntry> await_action(const Digest& key);
   /// The same without counting as a use and without the upstream.
   std::optional<ActionEntry> peek_action(const Digest& key);
   /// To be called last, after its blobs. An entry that is there and says the same (times aside) is kept; one
@@ -186,6 +191,8 @@ class Store {
  private:
   Store() = default;
   bool shares() const;
+  std::optional<ActionEntry> find_anywhere(const Digest& key);
+  bool hand_on(const Digest& key, const ActionEntry& entry);
 
   std::unique_ptr<StoreParts> parts_;
 };

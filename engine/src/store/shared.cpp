@@ -20,6 +20,27 @@ std::string shown(Upstream::Room room, const Digest& name) {
   return (room == Upstream::Room::actions ? "ac/" : "cas/") + name.hex().substr(0, 16) + "...";
 }
 
+/// Waits ever longer, until there is none of it left.
+class Patience {
+ public:
+  explicit Patience(double seconds)
+      : until_(Clock::now() +
+               std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds))) {}
+
+  /// False when it is at its end.
+  bool wait() {
+    if (Clock::now() >= until_) return false;
+    std::this_thread::sleep_for(pause_);
+    pause_ = std::min(pause_ * 2, longest_look_again);
+    return true;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point until_;
+  std::chrono::milliseconds pause_ = first_look_again;
+};
+
 /// Verifies what passes: at most `most` bytes, the SHA-256 at the end.
 class Check {
  public:
@@ -93,7 +114,7 @@ Upstream::Got SharedResults::read(Room room, const Digest& name, const Upstream:
   return read.got;
 }
 
-std::optional<ActionEntry> SharedResults::read_entry(const Digest& key) {
+std::optional<ActionEntry> SharedResults::read_entry(const Digest& key, bool afresh) {
   using Got = Upstream::Got;
   // What cannot be decoded is read a second time before it is called damaged.
   for (int attempt = 0; attempt < 2; ++attempt) {
@@ -103,7 +124,7 @@ std::optional<ActionEntry> SharedResults::read_entry(const Digest& key) {
       return bytes.size() <= entry_limit;
     };
     const Got got = read(
-        Room::actions, key, sink, [&bytes] { bytes.clear(); }, attempt > 0);
+        Room::actions, key, sink, [&bytes] { bytes.clear(); }, afresh || attempt > 0);
     if (got != Got::found && got != Got::refused) return std::nullopt;
     if (got == Got::found) {
       if (auto entry = decode_action(key, bytes)) return entry;
@@ -115,8 +136,20 @@ std::optional<ActionEntry> SharedResults::read_entry(const Digest& key) {
 
 std::optional<ActionEntry> SharedResults::find(const Digest& key) { return read_entry(key); }
 
+std::optional<ActionEntry> SharedResults::await(const Digest& key) {
+  Patience patience(use_.patience);
+  while (patience.wait()) {
+    if (auto entry = read_entry(key, true)) return entry;
+  }
+  return std::nullopt;
+}
+
 bool SharedResults::has(const OutputEntry& output) {
   return !is_resting() && use_.upstream->size(Room::blobs, output.digest) == output.bytes;
+}
+
+bool SharedResults::has(const Digest& key) {
+  return !is_resting() && use_.upstream->size(Room::actions, key).has_value();
 }
 
 SharedResults::Copied SharedResults::copy_to_disk(const Digest& digest, std::optional<std::uint64_t> bytes,
@@ -184,10 +217,7 @@ SharedResults::Copied SharedResults::copy_to_memory(const OutputEntry& output, A
 }
 
 ArtifactPtr SharedResults::load(const OutputEntry& output) {
-  using Clock = std::chrono::steady_clock;
-  const auto until = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                        std::chrono::duration<double>(use_.patience));
-  auto pause = first_look_again;
+  Patience patience(use_.patience);
   for (bool afresh = false;; afresh = true) {
     bool disk_failed = false;
     Copied copied = copy_to_disk(output.digest, output.bytes, afresh, disk_failed);
@@ -204,9 +234,7 @@ ArtifactPtr SharedResults::load(const OutputEntry& output) {
         return nullptr;
       }
     }
-    if (Clock::now() >= until) return nullptr;
-    std::this_thread::sleep_for(pause);
-    pause = std::min(pause * 2, longest_look_again);
+    if (!patience.wait()) return nullptr;
   }
 }
 

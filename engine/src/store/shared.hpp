@@ -25,7 +25,10 @@ class SharedResults {
 
   /// Nothing when there is none, or none that is whole.
   std::optional<ActionEntry> find(const Digest& key);
+  /// Looks again for as long as the patience lasts.
+  std::optional<ActionEntry> await(const Digest& key);
   bool has(const OutputEntry& output);
+  bool has(const Digest& key);  // an entry
   /// Copies the blob here and maps it; into memory where the disk cannot take it. Null on a miss.
   ArtifactPtr load(const OutputEntry& output);
   /// Copies a blob of any size here.
@@ -55,7 +58,7 @@ class SharedResults {
   bool write(Room room, const Digest& name, const std::vector<std::span<const std::byte>>& pieces,
              const Upstream::PutOptions& options, bool& there);
   bool is_whole(const Digest& digest, std::uint64_t bytes);
-  std::optional<ActionEntry> read_entry(const Digest& key);
+  std::optional<ActionEntry> read_entry(const Digest& key, bool afresh = false);
   enum class Copied { no, damaged, yes };
   Copied copy_to_disk(const Digest& digest, std::optional<std::uint64_t> bytes, bool afresh,
                       bool& disk_failed);

@@ -49,9 +49,35 @@ bool Store::is_transport() const { return parts_->shared.is_transport(); }
 std::vector<std::string> Store::upstream_notes() const { return parts_->shared.notes(); }
 
 std::optional<ActionEntry> Store::find_action(const Digest& key) {
+  std::optional<ActionEntry> entry = find_anywhere(key);
+  if (entry && is_transport() && !hand_on(key, *entry)) return std::nullopt;
+  return entry;
+}
+
+std::optional<ActionEntry> Store::find_anywhere(const Digest& key) {
   std::optional<ActionEntry> entry = parts_->actions.find(key);
   if (entry || !parts_->shared) return entry;
   entry = parts_->shared.find(key);
+  if (entry) parts_->actions.put(key, *entry, false);
+  return entry;
+}
+
+/// What was found here is of use to other jobs only when it is upstream, with all its blobs.
+bool Store::hand_on(const Digest& key, const ActionEntry& entry) {
+  SharedResults& shared = parts_->shared;
+  for (const OutputEntry& output : entry.outputs) {
+    if (shared.has(output)) continue;
+    const ArtifactPtr here = parts_->blobs.load(output);
+    if (here == nullptr || !shared.put(*here, true, {})) return false;
+  }
+  if (!shared.has(key)) shared.put(key, entry, true);
+  return true;
+}
+
+std::optional<ActionEntry> Store::await_action(const Digest& key) {
+  std::optional<ActionEntry> entry = find_anywhere(key);
+  if (entry || !parts_->shared) return entry;
+  entry = parts_->shared.await(key);
   if (entry) parts_->actions.put(key, *entry, false);
   return entry;
 }

@@ -95,9 +95,17 @@ void add_explain(const Command& app, Common& common, Action& action);
 void add_render(const Command& app, Common& common, Action& action);
 void add_spheres(const Command& app, Common& common, Action& action);
 void add_look(const Command& app, Common& common, Action& action);
+void add_submit(const Command& app, Common& common, Action& action);
+void add_status(const Command& app, Common& common, Action& action);
+void add_cancel(const Command& app, Common& common, Action& action);
 void add_exec_node(const Command& app, Common& common, Action& action);
 void add_completion(const Command& app, Common& common, Action& action);
 void add_version(const Command& app, Common& common, Action& action);
+
+/// Runs the unit in a file of a submission (units.hpp) and writes its status beside it. `patience`: for so
+/// many seconds it looks again for what must be in the store. Returns the exit code; 75 when an input is not
+/// there.
+int exec_unit(const Common& common, const std::string& file, double patience);
 
 /// "NAME=VALUE" of an option that is repeated; throws Error that shows how it is written.
 std::pair<std::string, std::string> split_setting(const std::string& option, const std::string& text,

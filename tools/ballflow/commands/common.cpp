@@ -59,7 +59,7 @@ void add_upstream_options(const Command& command, Common& common) {
       .option("--upstream", common.upstream,
               "results shared with others: a folder, or http://host/path of a cache server; what is not in "
               "the\ncache is looked for there, and results are published there (default: $BALLFLOW_UPSTREAM)")
-      .type_name("PLACE");
+      .type_name("DIR");
   command.flag("--upstream-read-only", common.upstream_read_only,
                "take results from the upstream and publish none");
 }

@@ -16,7 +16,8 @@ namespace ballflow::cli {
 namespace {
 
 struct ExecNodeArguments {
-  std::string type, body;
+  std::string type, body, unit;
+  double patience = 60;
   std::vector<std::string> inputs, sets, outputs;
   unsigned threads = 0;
   std::uint64_t seed = 0;
@@ -151,6 +152,13 @@ void print_outputs(const Dag& dag, const RunResult& result) {
 }
 
 int exec_node(const Common& common, const ExecNodeArguments& arguments) {
+  if (arguments.type.empty() == arguments.unit.empty()) {
+    throw Error(ExitCode::usage,
+                arguments.unit.empty() ? "which node?"
+                                       : "a unit has nodes of its own, " + arguments.type + " is one more",
+                "name a node type, or the file of a unit with --unit");
+  }
+  if (!arguments.unit.empty()) return exec_unit(common, arguments.unit, arguments.patience);
   if ((arguments.type == "loop") == arguments.body.empty()) {
     throw Error(ExitCode::usage,
                 arguments.body.empty() ? "a loop needs the file of its body" : "only a loop has a body",
@@ -212,7 +220,7 @@ void add_exec_node(const Command& app, Common& common, Action& action) {
   const Command command = app.subcommand(
       "exec-node", "run one node alone, with artifacts as inputs; failing nodes print the command");
   const auto arguments = std::make_shared<ExecNodeArguments>();
-  command.option("type", arguments->type, "node type, or \"loop\"").required().type_name("TYPE");
+  command.option("type", arguments->type, "node type, or \"loop\"").type_name("TYPE");
   command.option("--body", arguments->body, "graph file of the body of a loop").type_name("GRAPH.json");
   command
       .option("--input", arguments->inputs,
@@ -230,6 +238,12 @@ void add_exec_node(const Command& app, Common& common, Action& action) {
               "write an output to a file as well; the extension is the format (.safetensors: the artifact)")
       .type_name("PORT=FILE")
       .one_at_a_time();
+  command
+      .option("--unit", arguments->unit,
+              "in place of a type: run the nodes of this file, which \"ballflow submit\" has written")
+      .type_name("FILE");
+  command.option("--patience", arguments->patience,
+                 "seconds for which a unit looks again for inputs that must be in the store");
   command.option("--seed", arguments->seed, "seed of the nodes that use random numbers");
   command
       .option("--threads", arguments->threads,

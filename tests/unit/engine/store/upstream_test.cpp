@@ -215,6 +215,26 @@ TEST_F(UpstreamTest, between_jobs_a_failed_write_is_an_error) {
   EXPECT_TRUE(publish(*a, key, *probe));
 }
 
+TEST_F(UpstreamTest, between_jobs_a_hit_is_one_that_others_find_too) {
+  UpstreamUse use;
+  use.transport = true;
+  // What a full disk left here alone is handed on when there is room.
+  const auto a = machine("a", use);
+  files->fault = [](const std::string& call) { return call == "write" ? -ENOSPC : 0; };
+  EXPECT_THROW(publish(*a, key, *probe), Error);
+  const auto local = Store::open({folder.file("a")});
+  publish(*local, key, *probe);
+  EXPECT_THROW(a->find_action(key), Error);
+  files->fault = {};
+  EXPECT_TRUE(a->find_action(key));
+  EXPECT_TRUE(fs::exists(blob_file()) && fs::exists(entry_file()));
+  // A blob that was lost is no hit for who has not got it, and is put back by who has.
+  fs::remove(blob_file());
+  EXPECT_FALSE(machine("b", use)->find_action(key));
+  EXPECT_TRUE(a->find_action(key));
+  EXPECT_TRUE(machine("b", use)->find_action(key));
+}
+
 TEST_F(UpstreamTest, a_local_disk_that_cannot_take_a_blob_does_not_matter) {
   publish(*machine("a"), key, *probe);
   fs::create_directory(folder.file("b"));

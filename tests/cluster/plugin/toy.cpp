@@ -1,0 +1,81 @@
+// Nodes that do next to nothing, for tens of thousands of them on a cluster. $BALLFLOW_TOY_DIE ends the
+// process of the step with that value by exit code 37, as a node library with a bug would.
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "ballflow/sdk.hpp"
+
+namespace {
+
+struct Count {
+  double value = 0;
+};
+
+}  // namespace
+
+template <>
+struct ballflow::TypeOf<Count> {
+  static void declare(TypeDecl<Count>& d) {
+    d.id("toy.Count", 1).doc("A number.");
+    d.scalar("value", &Count::value).doc("the number");
+  }
+};
+
+namespace {
+
+struct Load {
+  ballflow::Out<Count> count;
+  double model = 0;
+  static void declare(ballflow::NodeDecl<Load>& d) {
+    d.id("toy.Load", 1).summary("A number.");
+    d.output("count", &Load::count).doc("the number");
+    d.param("model", &Load::model).doc("the number");
+  }
+  void run(ballflow::RunContext&) { count = Count{1000 * model}; }
+};
+
+struct Step {
+  ballflow::In<Count> from;
+  ballflow::Out<Count> count;
+  double add = 0, seconds = 0;
+  static void declare(ballflow::NodeDecl<Step>& d) {
+    d.id("toy.Step", 1).summary("Adds to a number, and computes in vain for a while.");
+    d.input("from", &Step::from).doc("a number");
+    d.output("count", &Step::count).doc("the sum");
+    d.param("add", &Step::add).doc("what is added");
+    d.param("seconds", &Step::seconds).unit("s").at_least(0).doc("processor time that it takes");
+  }
+  void run(ballflow::RunContext&) {
+    const double sum = from->value + add;
+    const char* const die = std::getenv("BALLFLOW_TOY_DIE");
+    if (die != nullptr && std::strtod(die, nullptr) == sum) ::_exit(37);
+    const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    while (std::chrono::steady_clock::now() < until) {
+    }
+    count = Count{sum};
+  }
+};
+
+struct Sum {
+  ballflow::InList<Count> counts;
+  ballflow::Out<Count> sum;
+  static void declare(ballflow::NodeDecl<Sum>& d) {
+    d.id("toy.Sum", 1).summary("Sums.");
+    d.input("counts", &Sum::counts).doc("numbers");
+    d.output("sum", &Sum::sum).doc("their sum");
+  }
+  void run(ballflow::RunContext&) {
+    double total = 0;
+    for (std::size_t i = 0; i < counts.size(); ++i) total += counts[i].value;
+    sum = Count{total};
+  }
+};
+
+}  // namespace
+
+BALLFLOW_PLUGIN("toy", "1", (ballflow::node_entries<Load, Step, Sum>()), (ballflow::type_entries<Count>()))
