@@ -247,7 +247,16 @@ std::string duration(double seconds) {
 std::string describe(const OutputEntry& output) {
   using Words = std::function<std::string(const Json&)>;
   static const std::map<std::string, Words> words = {
-      {"PointSet", [](const Json& s) { return counted(s, "count", "point"); }},
+      {"PointSet",
+       [](const Json& s) {
+         std::string text = counted(s, "count", "point");
+         if (s.contains("instance")) {  // of ChooseTemplate
+           const std::string instance = number(s, "instance");
+           text += " of the template, instance " + instance + " (template=" + instance +
+                   " keeps it when shapes are added)";
+         }
+         return text;
+       }},
       {"TriangleMesh", mesh},
       {"PoleSet",
        [](const Json& s) {

@@ -210,6 +210,20 @@ TEST(scene, moves_the_mean_of_a_prior_by_a_slider_for_each_mode) {
   EXPECT_FALSE(layers[1].visible);
 }
 
+TEST(scene, shows_the_mesh_of_a_mean_that_has_one) {
+  ShapePrior prior;
+  prior.centers = {{0, 0, 0}};
+  prior.radii = {1};
+  prior.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  prior.triangles = {{0, 2, 1}, {0, 1, 3}};
+  const auto layers = shown(prior);
+  ASSERT_EQ(names(layers), (Names{"mean", "mean mesh"}));
+  EXPECT_EQ(layers[1].shape, Shape::triangles);
+  EXPECT_EQ(layers[1].vertices[3], (Vec3{0, 0, 1}));
+  EXPECT_EQ(layers[1].triangles[1], (std::array<std::uint32_t, 3>{0, 1, 3}));
+  EXPECT_FALSE(layers[1].visible);
+}
+
 TEST(scene, colours_fitted_balls_by_their_uncertainty) {
   ShapeFit fit;
   fit.centers = {{0, 0, 0}, {9, 0, 0}};

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
+#include "terminal/terminal.hpp"
+
 namespace ballflow::cli {
 namespace {
 
@@ -111,6 +115,23 @@ TEST(key_facts, of_shapes_say_how_good_a_model_is_and_how_far_from_it_a_scan) {
                                       "instances 1.25 away, from the mean 2"}));
   EXPECT_EQ(key_facts(outputs({{"x", "ShapePrior", R"({"balls": 3})"}}), Json::object()),
             (std::vector<std::string>{"ShapePrior, balls 3"}));
+}
+
+TEST(describe, says_which_instance_is_the_template_and_how_a_mesh_of_a_model_folds) {
+  const auto said = [](const char* type, const char* summary) {
+    return describe(outputs({{"x", type, summary}}).front().second);
+  };
+  EXPECT_EQ(said("PointSet", R"({"count": 1000})"), "1 000 points");
+  EXPECT_EQ(said("PointSet", R"({"count": 1000, "instance": 3})"),
+            "1 000 points of the template, instance 3 (template=3 keeps it when shapes are added)");
+  EXPECT_EQ(said("TriangleMesh", R"({"faces": 12, "closed": true, "genus": 0, "folded_triangles": 0,
+                                     "self_intersections": 0, "mean_distance_from_balls": 0.25})"),
+            "12 triangles, closed, genus 0, 0.25 from the balls");
+  EXPECT_EQ(said("TriangleMesh", R"({"faces": 12, "closed": true, "genus": 0, "folded_triangles": 2,
+                                     "self_intersections": 1, "mean_distance_from_balls": 0.25})"),
+            "12 triangles, closed, genus 0, 2 triangles FOLDED, 1 self-intersection, 0.25 from the balls");
+  EXPECT_EQ(said("TriangleMesh", R"({"faces": 1, "closed": false, "frame": "the axes of the grid"})"),
+            "1 triangle, open; x, y, z: the axes of the grid");
 }
 
 TEST(remedy, is_about_the_first_step_that_changed_the_topology) {

@@ -1,6 +1,6 @@
 // ShapePrior: the balls of the mean, coloured by how much they vary, with a slider for each of the first
-// modes; its surface points, which stay, and what a standard deviation of a mode does to the centers, as
-// segments. ShapeFit: the fitted balls, coloured by how uncertain they are.
+// modes; its surface points and its mesh, which stay, and what a standard deviation of a mode does to the
+// centers, as segments. ShapeFit: the fitted balls, coloured by how uncertain they are.
 #include "types/shape_prior.hpp"
 
 #include <algorithm>
@@ -105,6 +105,19 @@ std::vector<Layer> layers_of_shape_prior(const Artifact& artifact) {
     surface.vertices = prior.points;
     surface.visible = false;
     layers.push_back(std::move(surface));
+  }
+  if (!prior.triangles.empty()) {
+    Layer mesh;
+    mesh.name = "mean mesh";
+    mesh.shape = Shape::triangles;
+    mesh.vertices = prior.vertices;
+    for (const auto& [a, b, c] : prior.triangles)
+      mesh.triangles.push_back(
+          {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(c)});
+    mesh.opacity = 0.3;
+    mesh.smooth = true;
+    mesh.visible = false;
+    layers.push_back(std::move(mesh));
   }
   for (std::size_t mode = 0; mode < modes; ++mode) layers.push_back(segments_of_mode(prior, mode));
   return layers;
