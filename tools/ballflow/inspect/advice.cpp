@@ -28,7 +28,7 @@ class Adviser {
       shells();
       thin();
     }
-    std::string line = "ballflow run graphs/medial_axis.json --set " + shell_word("input=" + report_.path);
+    std::string line = "ballflow run medial_axis --set " + shell_word("input=" + report_.path);
     for (const std::string& option : options_) line += " --set " + option;
     report_.command = line + " --out out";
   }

@@ -49,7 +49,7 @@ TEST_F(InspectTest, a_closed_box_is_said_to_be_one) {
   for (const char* words :
        {"a mesh, OFF", "8 vertices, 12 triangles", "40 x 40 x 40", "closed, manifold", "no triangles cross",
         "1 component, no tunnel, no cavity; volume 6.4e+04, area 9600", "the thinnest: 40 at",
-        "the narrowest: none", "ballflow run graphs/medial_axis.json"})
+        "the narrowest: none", "ballflow run medial_axis --set input="})
     EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
   // Eight samples could not show a box.
   EXPECT_NE(all_findings(report).find("thinner than its triangle is long"), std::string::npos)
