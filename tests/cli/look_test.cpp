@@ -33,9 +33,8 @@ struct LookCli : testing::Test {
   }
   /// A command is one that a shell understands and that the program accepts.
   void expect_planned(std::string command) {
-    ASSERT_TRUE(command.starts_with("ballflow run graphs/")) << command;
+    ASSERT_TRUE(command.starts_with("ballflow run medial_axis ")) << command;
     command.replace(0, 8, test::binary_file("bin/ballflow"));
-    command.replace(command.find("graphs/"), 7, test::source_file("graphs/"));
     command.replace(command.find(" run "), 5, " plan ");
     command.resize(command.find(" --out"));
     const ProcessResult planned =
