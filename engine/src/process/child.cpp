@@ -90,7 +90,7 @@ class Start {
 
 }  // namespace
 
-Child::Child(const ChildCommand& command) {
+Child::Child(const ChildCommand& command) : owner_(::getpid()) {
   std::array<int, 2> sockets{}, pipe{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets.data()) != 0)
     cannot_start(command.arguments[0], errno);
@@ -224,7 +224,7 @@ std::vector<std::string> Child::printed(bool all) {
 }
 
 bool Child::reap(bool wait) {
-  if (reaped_ || pid_ < 0) return true;
+  if (reaped_ || pid_ < 0 || owner_ != ::getpid()) return true;
   siginfo_t info{};
   int failed = 0;
   do {

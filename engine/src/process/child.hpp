@@ -29,7 +29,7 @@ class Child {
  public:
   /// Throws Error (code plugin) when the program cannot be started.
   explicit Child(const ChildCommand& command);
-  /// Ends it at once, and all of its group.
+  /// Ends it at once, and all of its group; in a fork of the process that has started it, nothing.
   ~Child();
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
@@ -57,6 +57,7 @@ class Child {
   void read_messages();
   void read_output();
 
+  pid_t owner_ = -1;  // the process that has started it: a fork of that has a copy of this, and no child
   pid_t pid_ = -1;
   Descriptor channel_, output_;
   bool closed_ = false;  // the channel, by the child

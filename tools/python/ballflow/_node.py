@@ -298,11 +298,12 @@ class NodeFunction:
         for port in ports:  # a default of None says that the input may be left out
             if signature.parameters[port["name"]].default is None and "list" not in port:
                 port["optional"] = True
+        summary, _, doc = reading.doc.partition("\n")
         return {
             "id": self.id,
             "version": version,
-            "summary": reading.doc.split("\n", 1)[0] or f"A node of {_source.location(function)}.",
-            "doc": reading.doc or "Its function has no docstring.",
+            "summary": summary or f"A function of {_source.location(function)}, without a docstring.",
+            "doc": doc.strip(),
             "uses_seed": bool(seed),
             # A process with numpy; its inputs in memory that it shares, and outputs of about their size.
             "memory": {"fixed": 40e6, "per_input_byte": 2.0},

@@ -1,11 +1,14 @@
 #include "process/child.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <memory>
 #include <thread>
 
 #include "ballflow/error.hpp"
@@ -106,6 +109,21 @@ TEST(child, takes_with_it_what_it_has_started) {
   for (int i = 0; i < 1500 && is_alive(grandchild); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   EXPECT_FALSE(is_alive(grandchild));
+}
+
+TEST(child, is_left_alone_by_a_fork_of_its_parent) {
+  auto child =
+      std::make_unique<Child>(ChildCommand{{"sh", "-c", "read line <&3; echo still here >&3", "sh"}, {}});
+  const pid_t fork_of_this = fork();
+  if (fork_of_this == 0) {
+    child.reset();
+    _exit(0);
+  }
+  int status = 0;
+  waitpid(fork_of_this, &status, 0);
+  EXPECT_EQ(status, 0);
+  child->send("");
+  EXPECT_EQ(next(*child), "still here");
 }
 
 TEST(child, gets_defaults_of_its_environment_and_the_number_of_this_process) {
