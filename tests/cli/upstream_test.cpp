@@ -118,6 +118,20 @@ TEST_F(UpstreamCli, a_read_only_upstream_gets_nothing) {
   EXPECT_TRUE(fs::is_empty(shared));
 }
 
+TEST_F(UpstreamCli, parts_of_a_sweep_run_apart_and_give_the_whole) {
+  ASSERT_EQ(sweep("whole", "").exit_code, 0);
+  for (const char* part : {"1/3", "2/3", "3/3"}) {
+    const ProcessResult run = sweep("parts", shared, {"--shard", part, "--no-record"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+  }
+  EXPECT_EQ(files("parts"), files("whole"));
+  for (const char* report : {"report-1-3.json", "report-2-3.json", "report-3-3.json"})
+    EXPECT_TRUE(fs::exists(folder.file("out of parts/" + std::string(report))));
+  EXPECT_TRUE(fs::is_empty(folder.file("cache of parts/runs"))) << "no record";
+  for (const char* part : {"0/3", "4/3", "3", "1/", "a/b", "5/5"})
+    EXPECT_EQ(sweep("parts", shared, {"--shard", part}).exit_code, 2) << part;
+}
+
 TEST_F(UpstreamCli, damage_costs_time_and_no_results) {
   ASSERT_EQ(sweep("a", shared).exit_code, 0);
   int i = 0;

@@ -204,6 +204,47 @@ def table(here: Cluster) -> None:
     assert digests(here.root / "there/report.json") == expected
 
 
+def snakemake(here: Cluster) -> None:
+    """An exported workflow: with two local processors, resumed, and with its profile for Slurm."""
+    if shutil.which("snakemake") is None:
+        print("snakemake: skipped, it is not installed")
+        return
+    graph = write_graph(here.root / "graph", 4, 30, 0)
+    expected = here.local(graph)
+
+    def export(name: str) -> Path:
+        folder = here.root / name
+        here.run("export", str(graph), "--to", "snakemake", "--store", str(here.store), "-o", str(folder), "--unit-seconds", "1")
+        return folder
+
+    def snakemake(folder: Path, *words: str) -> None:
+        done = subprocess.run(["snakemake", "--snakefile", folder / "Snakefile", "--directory", folder / "profile",
+                               "--rerun-triggers", "mtime", *words],
+                              env={**here.environment, "CI": "true"}, capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr[-3000:]
+
+    folder = export("workflow")
+    units = len(list((folder / "units").iterdir()))
+    start = time.monotonic()
+    snakemake(folder, "--cores", "2")
+    print(f"snakemake: {units} units in {time.monotonic() - start:.0f} s on 2 processors")
+    assert here.results(graph) == expected
+    lost = sorted((folder / "done").iterdir())[:3]
+    for file in lost:
+        file.unlink()
+    snakemake(folder, "--cores", "2")
+    assert all(file.exists() for file in lost)
+    for room in ("ac", "cas"):
+        shutil.rmtree(here.store / room)
+    for cache in [here.root / "submitter", *here.root.glob("ballflow-*")]:
+        shutil.rmtree(cache, ignore_errors=True)
+    folder = export("workflow-slurm")
+    start = time.monotonic()
+    snakemake(folder, "--profile", str(folder / "profile"), "--jobs", "50")
+    print(f"snakemake: {units} units in {time.monotonic() - start:.0f} s through Slurm")
+    assert here.results(graph) == expected
+
+
 def dies(here: Cluster) -> None:
     """A process that exits with 37 in the middle of a unit."""
     graph = write_graph(here.root / "graph", 4, 3, 0.01)
@@ -331,7 +372,7 @@ def damaged(here: Cluster) -> None:
     assert digests(report) == expected
 
 
-SCENARIOS = {f.__name__: f for f in (small, large, busy, table, dies, cancelled, node_killed, slurmd_killed, controller_restarted,
+SCENARIOS = {f.__name__: f for f in (small, large, busy, table, snakemake, dies, cancelled, node_killed, slurmd_killed, controller_restarted,
                                      submitter_killed, disk_full, damaged)}
 
 

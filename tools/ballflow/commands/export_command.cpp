@@ -3,6 +3,7 @@
 
 #include "ballflow/text.hpp"
 #include "commands/commands.hpp"
+#include "commands/submit_command.hpp"
 #include "commands/watched.hpp"
 #include "export/export.hpp"
 #include "export/scaled.hpp"
@@ -14,7 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ExportArguments {
-  std::string artifact, path, format, scale = "1";
+  std::string artifact, path, format, scale = "1", to;
+  SubmitArguments workflow;
 };
 
 std::string formats_help() {
@@ -31,7 +33,20 @@ std::string formats_help() {
          "For ParaView take vtp, for Blender and browsers glb, for NumPy npy, for Q-MAT and its kin ma.";
 }
 
+int export_workflow(Common& common, const ExportArguments& arguments) {
+  if (arguments.workflow.store.empty() || arguments.workflow.out.empty()) {
+    throw Error(ExitCode::usage, "--to snakemake needs a store and a folder",
+                "ballflow export GRAPH --to snakemake --store DIR -o FOLDER");
+  }
+  SubmitArguments workflow = arguments.workflow;
+  workflow.graph.graph = arguments.artifact;
+  return export_snakemake(common, workflow, workflow.out);
+}
+
 int export_one(const Common& common, const ExportArguments& arguments) {
+  if (arguments.path.empty()) {
+    throw Error(ExitCode::usage, "which file?", "name the file to write behind the artifact: balls.ply");
+  }
   const ArtifactPtr artifact = find_artifact(common, arguments.artifact);
   common.store();  // whose files are not written over, also where the artifact is a file
   common.places->writes("the exported file", arguments.path);
@@ -57,17 +72,38 @@ void add_export(const Command& app, Common& common, Action& action) {
   const auto arguments = std::make_shared<ExportArguments>();
   command
       .option("artifact", arguments->artifact,
-              "digest from a run report, or a file: of the cache, of a model, or of balls")
+              "digest from a run report, or a file: of the cache, of a model, or of balls; with --to a graph")
       .required();
-  command.option("file", arguments->path, "file to write").required();
+  command.option("file", arguments->path, "file to write");
   command.option("--format", arguments->format, "format; default: by the extension of the file");
   command.option(
       "--scale", arguments->scale,
       "of all lengths: a factor, or the unit that they have, which becomes metres (mm, cm, in, ...)");
   command.option("--cache", common.cache, "cache folder").type_name("DIR");
+  SubmitArguments& workflow = arguments->workflow;
+  command.option("--to", arguments->to, "write a workflow of a graph instead, for an engine that runs it")
+      .one_of({"snakemake"});
+  command.option("-o,--out", workflow.out, "folder that receives the workflow").type_name("DIR");
+  command.option("--store", workflow.store, "of a workflow: shared folder of results, an upstream")
+      .type_name("DIR");
+  command.option("--set", workflow.graph.sets, "of a workflow: as of \"run\"")
+      .type_name("NAME=VALUE")
+      .one_at_a_time();
+  command.option("--axis", workflow.graph.axes, "of a workflow: as of \"sweep\"")
+      .type_name("NAME=VALUES")
+      .one_at_a_time();
+  command.option("--inputs", workflow.graph.inputs, "of a workflow: as of \"sweep\"")
+      .type_name("PATTERN")
+      .one_at_a_time();
+  command.option("--unit-seconds", workflow.unit_seconds, "of a workflow: as of \"submit\"")
+      .between(0.001, 1e6);
+  command.option("--threads", workflow.threads, "of a workflow: processors of a unit");
+  command.option("--seed", workflow.seed, "of a workflow: seed of the nodes that use random numbers");
   command.footer(formats_help());
   command.callback([&common, &action, arguments] {
-    action = [&common, arguments] { return export_one(common, *arguments); };
+    action = [&common, arguments] {
+      return arguments->to.empty() ? export_one(common, *arguments) : export_workflow(common, *arguments);
+    };
   });
 }
 

@@ -19,6 +19,7 @@
 #include "commands/commands.hpp"
 #include "commands/failure.hpp"
 #include "commands/output_folder.hpp"
+#include "commands/shard.hpp"
 #include "export/export.hpp"
 #include "report/compare.hpp"
 #include "terminal/event_lines.hpp"
@@ -167,6 +168,13 @@ void check_writable(const std::string& option, const std::string& path) {
               "choose a file in a folder that exists and can be written");
 }
 
+/// Parts of a sweep may write to one folder.
+std::string report_name(const std::string& shard) {
+  std::string name = shard;
+  std::replace(name.begin(), name.end(), '/', '-');
+  return name.empty() ? "report.json" : "report-" + name + ".json";
+}
+
 /// Which nodes a run is about; as Dag::nodes.
 std::vector<bool> looked_at(const Dag& dag, const RunOptions& options) {
   if (options.only.empty()) {
@@ -196,7 +204,7 @@ int run_graph(const Common& common, const RunArguments& arguments, const AfterRu
   // A folder of results says what they are results of.
   const std::string report_path = !arguments.report.empty() || arguments.out.empty() || dag.variants.empty()
                                       ? arguments.report
-                                      : arguments.out + "/report.json";
+                                      : arguments.out + "/" + report_name(arguments.shard);
   const auto store = common.shared_store();
   // Before hours of computing, not after them.
   common.places->writes("--report", report_path);
@@ -208,6 +216,7 @@ int run_graph(const Common& common, const RunArguments& arguments, const AfterRu
   check_writable("--report", report_path);
   check_writable("--trace", arguments.trace);
   RunOptions options = arguments.settings.options(dag);
+  if (!arguments.shard.empty()) options.until = nodes_of_shard(dag, arguments.shard);
   if (!dag.variants.empty()) options.keep_going = true;  // one that fails must not void the others
   if (!common.no_cache && !store->why().empty()) {
     std::fprintf(stderr, "warning: the cache is not written: %s\n", store->why().c_str());
@@ -255,7 +264,7 @@ int run_graph(const Common& common, const RunArguments& arguments, const AfterRu
   Json report = run_report(id, dag, result);
   report["version"] = BALLFLOW_VERSION;
   report["command"] = "ballflow run " + arguments.graph.words() + arguments.settings.words();
-  const bool recorded = save_run(*store, id, manifests_of(dag, result), report);
+  const bool recorded = !arguments.no_record && save_run(*store, id, manifests_of(dag, result), report);
   std::vector<std::string> records;  // written beside the outputs
   const auto record = [&](const char* what, const std::string& path, const auto& text) {
     if (path.empty()) return;
@@ -366,6 +375,13 @@ void add_command(const Command& app, Common& common, Action& action, bool sweep)
                "write events as lines of JSON (schemas/run_events.schema.json) to the standard output");
   command.flag("--quiet", arguments->quiet, "print errors only");
   if (sweep) {
+    command
+        .option("--shard", arguments->shard,
+                "run a part of the variants: 2/5 is the second of five; with --upstream parts share what "
+                "they have in "
+                "common")
+        .type_name("K/N");
+    command.flag("--no-record", arguments->no_record, "leave no record in the history of runs");
     command.footer(
         "Outputs go to a folder per variant, DIR/epsilon=0.1,strategy=greedy/, the report to "
         "DIR/report.json.\n"

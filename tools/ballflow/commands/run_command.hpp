@@ -15,8 +15,10 @@ struct RunArguments {
   std::string out, report, trace;
   std::vector<std::string> formats;
   bool json = false, quiet = false;
-  bool table = true;   // prints what every node did, and what matters; else totals
-  bool sweep = false;  // the command is "sweep"
+  bool table = true;       // prints what every node did, and what matters; else totals
+  bool sweep = false;      // the command is "sweep"
+  std::string shard;       // "2/5": the second of five parts of the variants; empty: all
+  bool no_record = false;  // in the history
 };
 
 /// Called after outputs are written and before anything is printed, when the run has results.

@@ -60,7 +60,7 @@ int submit(Common& common, const SubmitArguments& arguments) {
   bool missing = submitter.plan_round();
   if (missing && before) submitter.learn_from(*before, false);
   for (int round = 0; missing && round < most_rounds; ++round) {
-    submitter.pack_round();
+    submitter.pack_round(slurm::limits());
     if (arguments.dry_run) return 0;
     const std::size_t done = submitter.done();
     submitter.submit_round();

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cluster/slurm.hpp"
 #include "cluster/submission.hpp"
 #include "commands/commands.hpp"
 
@@ -29,8 +30,8 @@ class Submitter {
 
   /// Looks at the store. False when every node that is wanted is done, or fails.
   bool plan_round();
-  /// Plans units of what is missing, and prints them.
-  void pack_round();
+  /// Plans units of what is missing, within the limits of the cluster, and prints them.
+  void pack_round(const slurm::Limits& limits);
   /// Writes the units and submits them.
   void submit_round();
   /// Watches the jobs of an earlier submission.
@@ -41,6 +42,11 @@ class Submitter {
   /// up.
   void learn_from(const Submission& submission, bool give_up_failed);
 
+  /// Writes the files of the units into `folder`/units.
+  void write_units(const std::string& folder);
+  /// The shell words that run a unit, but for its --unit.
+  std::string unit_command() const;
+  const std::vector<UnitArray>& arrays() const { return arrays_; }
   std::size_t done() const { return done_; }
   std::size_t to_run() const { return to_run_; }
   const Submission& current() const { return submission_; }
@@ -52,7 +58,6 @@ class Submitter {
   const std::string& same() const { return same_; }
 
  private:
-  void write_units(const std::vector<UnitArray>& arrays);
   void give_artifacts();
 
   const Common& common_;
@@ -73,5 +78,8 @@ class Submitter {
   bool gets_more_ = false;
   std::size_t done_ = 0, to_run_ = 0;
 };
+
+/// Writes the units of a graph and a Snakefile that runs them into a folder. Returns the exit code.
+int export_snakemake(Common& common, const SubmitArguments& arguments, const std::string& folder);
 
 }  // namespace ballflow::cli

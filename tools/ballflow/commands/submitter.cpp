@@ -86,8 +86,7 @@ bool Submitter::plan_round() {
   return to_run_ != 0;
 }
 
-void Submitter::pack_round() {
-  const slurm::Limits limits = slurm::limits();
+void Submitter::pack_round(const slurm::Limits& limits) {
   PackOptions options;
   options.unit_seconds = arguments_.unit_seconds;
   options.most_units = static_cast<std::size_t>(std::max<std::uint64_t>(limits.array_size, 1));
@@ -169,17 +168,17 @@ void Submitter::give_artifacts() {
   }
 }
 
-void Submitter::write_units(const std::vector<UnitArray>& arrays) {
+void Submitter::write_units(const std::string& folder) {
+  give_artifacts();
   std::vector<std::string> unit_of(dag_.nodes.size());
-  for (std::size_t a = 0; a < arrays.size(); ++a) {
-    for (std::size_t u = 0; u < arrays[a].units.size(); ++u) {
-      for (const std::size_t i : arrays[a].units[u].nodes) unit_of[i] = unit_name(a, u);
+  for (std::size_t a = 0; a < arrays_.size(); ++a) {
+    for (std::size_t u = 0; u < arrays_[a].units.size(); ++u) {
+      for (const std::size_t i : arrays_[a].units[u].nodes) unit_of[i] = unit_name(a, u);
     }
   }
-  const std::string folder = submissions_.folder(submission_.run);
-  for (std::size_t a = 0; a < arrays.size(); ++a) {
-    for (std::size_t u = 0; u < arrays[a].units.size(); ++u) {
-      Unit unit = make_unit(dag_, plans_, arrays[a].units[u].nodes, unit_of);
+  for (std::size_t a = 0; a < arrays_.size(); ++a) {
+    for (std::size_t u = 0; u < arrays_[a].units.size(); ++u) {
+      Unit unit = make_unit(dag_, plans_, arrays_[a].units[u].nodes, unit_of);
       unit.run = submission_.run;
       unit.name = unit_name(a, u);
       unit.seed = arguments_.seed;
@@ -190,12 +189,17 @@ void Submitter::write_units(const std::vector<UnitArray>& arrays) {
   }
 }
 
+std::string Submitter::unit_command() const {
+  std::error_code ignored;
+  return shell_word(program_path()) + surroundings(common_) + " exec-node --upstream " +
+         shell_word(fs::absolute(arguments_.store, ignored).string()) + " --patience " +
+         std::to_string(arguments_.patience);
+}
+
 void Submitter::submit_round() {
-  give_artifacts();
   submissions_.make(submission_.run);
   const std::string folder = submissions_.folder(submission_.run);
-  write_units(arrays_);
-  std::error_code ignored;
+  write_units(folder);
   // What comes from the store lies on the disk of the node that runs the job, for the jobs that follow.
   const std::string script =
       "#!/bin/sh\n"
@@ -203,10 +207,7 @@ void Submitter::submit_round() {
       ": \"${BALLFLOW_CACHE:=${TMPDIR:-/tmp}/ballflow-$(id -u)}\"\n"
       "export BALLFLOW_CACHE\n"
       "exec " +
-      shell_word(program_path()) + surroundings(common_) + " exec-node --unit " + shell_word(folder) +
-      "/units/\"$1-$SLURM_ARRAY_TASK_ID\".json --upstream " +
-      shell_word(fs::absolute(arguments_.store, ignored).string()) + " --patience " +
-      std::to_string(arguments_.patience) + "\n";
+      unit_command() + " --unit " + shell_word(folder) + "/units/\"$1-$SLURM_ARRAY_TASK_ID\".json\n";
   write_atomically(folder + "/job.sh", script);
   submissions_.write(submission_);
   for (std::size_t a = 0; a < arrays_.size(); ++a) {
