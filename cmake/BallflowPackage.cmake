@@ -25,8 +25,9 @@ unions of balls: polar balls of a scan, a small set of them with a proven
 bound, stable medial axes, Minkowski sums, closed surfaces, collision
 spheres of robots.
 .
-The package has the program, its node libraries and graphs, and what is
-needed to build node libraries and programs of one's own.")
+The package has the program, its node libraries and graphs, the Python
+module, and what is needed to build node libraries and programs of one's
+own.")
 # dpkg-shlibdeps looks at every ELF file of the package, so at node libraries, too, which the program opens by itself.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # Embree is opened when a picture is drawn; nothing in the files says so.
@@ -37,7 +38,12 @@ if(owner MATCHES "^([^:, ]+)")
 else()
   set(CPACK_DEBIAN_PACKAGE_DEPENDS libembree3-3)
 endif()
-# For nodes in Python; for who builds against the headers and static libraries.
+# The Python package and nodes in Python want it; the program does not.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS python3-numpy)
+if(TARGET ballflow_python)
+  set(CPACK_BALLFLOW_PYTHON ${BALLFLOW_PYTHON_DIR}/ballflow)
+endif()
+# For who builds against the headers and static libraries.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
-  "python3-numpy, cmake, g++, nlohmann-json3-dev, libtbb-dev, libcgal-dev, libboost-dev, libcurl4-openssl-dev, libssl-dev, libzstd-dev, zlib1g-dev")
+  "python3, cmake, g++, nlohmann-json3-dev, libtbb-dev, libcgal-dev, libboost-dev, libcurl4-openssl-dev, libssl-dev, libzstd-dev, zlib1g-dev")
 include(CPack)
