@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { moved, motions, place, poses } from '../../../tools/viewer/src/chain.js';
+import { growths, moved, motions, place, poses } from '../../../tools/viewer/src/chain.js';
 import { Joints } from '../../../tools/viewer/src/joints.js';
 
 const at = (...t) => [1, 0, 0, 0, 1, 0, 0, 0, 1, ...t];
@@ -39,6 +39,25 @@ test('layers move from the pose that they are given in', () => {
   near([...placed.vertices], [-1, -1, -1, -1, 1.75, 0]);
   near(placed.lower, [-0.5, -0.5, -0.5]);
   near(placed.upper, [0.5, 3, 1.25]);
+});
+
+test('radii grow with the joints of all frames that a ball hangs on', () => {
+  const modes = {
+    frames: [
+      { parent: -1, origin: at(0, 0, 0), motion: 'slide', axis: [1, 0, 0], joint: 0, factor: 2, offset: 0, growth: Math.log(2) },
+      { parent: 0, origin: at(0, 0, 0), motion: 'none', axis: [1, 0, 0], joint: 1, factor: 1, offset: 0, growth: Math.log(3) },
+    ],
+    joints: [{ name: 'mode 0', lower: -3, upper: 3, value: 0 }, { name: 'mode 1', lower: -3, upper: 3, value: 1 }],
+  };
+  assert.equal(growths(arm, [1, 1]), null, 'nothing of a robot grows');
+  near(growths(modes, [1, 0]), [2, 2 / 3]);
+  const layer = { vertices: Float32Array.from([0, 0, 0, 1, 0, 0]), frames: [0, 1], radii: Float32Array.from([1, 3]) };
+  const placed = place(layer, [0, 0, 0], motions(modes, [1, 0]), growths(modes, [1, 0]));
+  near([...placed.radii], [2, 2]);
+  near([...placed.vertices], [2, 0, 0, 3, 0, 0]);
+  near(placed.lower, [0, -2, -2]);
+  near(placed.upper, [5, 2, 2]);
+  assert.equal(place(layer, [0, 0, 0], motions(arm, [1, 1])).radii, layer.radii);
 });
 
 test('values from an address are kept within the limits, and those of other robots are ignored', () => {

@@ -96,6 +96,16 @@ std::vector<geometry::Pose> frame_poses(const Chain& chain, const std::vector<do
   return poses;
 }
 
+std::vector<double> frame_growths(const Chain& chain, const std::vector<double>& values) {
+  std::vector<double> growths;
+  growths.reserve(chain.frames.size());
+  for (const Chain::Frame& frame : chain.frames) {
+    const double own = frame.joint < 0 ? 0 : frame.growth * values[static_cast<std::size_t>(frame.joint)];
+    growths.push_back(own + (frame.parent < 0 ? 0 : growths[static_cast<std::size_t>(frame.parent)]));
+  }
+  return growths;
+}
+
 Json chain_json(const Chain& chain) {
   Json json = {{"name", chain.name}, {"frames", Json::array()}, {"joints", Json::array()}};
   for (const Chain::Frame& frame : chain.frames) {
@@ -107,6 +117,7 @@ Json chain_json(const Chain& chain) {
                               {"joint", frame.joint},
                               {"factor", frame.factor},
                               {"offset", frame.offset}});
+    if (frame.growth != 0) json["frames"].back()["growth"] = frame.growth;
   }
   for (const Chain::Joint& joint : chain.joints) {
     json["joints"].push_back({{"name", joint.name},

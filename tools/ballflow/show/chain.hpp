@@ -24,6 +24,8 @@ struct Chain {
     geometry::Vec3 axis{1, 0, 0};                 // of length 1
     std::int32_t joint = -1;                      // whose value it takes, or -1: the offset alone
     double factor = 1, offset = 0;                // value = factor * that of the joint + offset
+    double growth =
+        0;  // radii of what hangs here or on frames behind it: times exp(growth * the joint's value)
   };
 
   struct Joint {
@@ -44,8 +46,12 @@ Chain chain_of(const geometry::RobotTree& tree);
 /// Frames in the model, for a value of each joint.
 std::vector<geometry::Pose> frame_poses(const Chain& chain, const std::vector<double>& values);
 
+/// By how much radii have grown at each frame: logarithms of factors.
+std::vector<double> frame_growths(const Chain& chain, const std::vector<double>& values);
+
 /// {"name", "frames": [{"name", "parent", "origin", "motion": "turn" | "slide" | "none", "axis", "joint",
-/// "factor", "offset"}], "joints": [{"name", "unit", "lower", "upper", "value"}]}
+/// "factor", "offset", and "growth" where there is one}], "joints": [{"name", "unit", "lower", "upper",
+/// "value"}]}
 Json chain_json(const Chain& chain);
 
 /// Empty when the rules above hold, else what is wrong.

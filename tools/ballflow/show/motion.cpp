@@ -6,6 +6,7 @@
 
 #include "ballflow/error.hpp"
 #include "ballflow/text.hpp"
+#include "exact/exponential.hpp"
 
 namespace ballflow::show {
 namespace {
@@ -25,6 +26,7 @@ void move(Layer& layer, std::string_view joint, double value) {
   std::vector<double> values;
   bool any = false;
   for (const Chain::Joint& each : layer.chain->joints) values.push_back(each.value);
+  const std::vector<double> given = values;
   const std::vector<Pose> before = frame_poses(*layer.chain, values);
   for (std::size_t j = 0; j < values.size(); ++j) {
     if (layer.chain->joints[j].name != joint) continue;
@@ -40,6 +42,16 @@ void move(Layer& layer, std::string_view joint, double value) {
     vertices.push_back(moved(after[frame], in_frame(before[frame], layer.vertices[i])));
   }
   layer.vertices = std::move(vertices);
+  if (layer.radii.empty()) return;
+  const std::vector<double> small = frame_growths(*layer.chain, given);
+  const std::vector<double> large = frame_growths(*layer.chain, values);
+  std::vector<double> radii;
+  radii.reserve(layer.radii.size());
+  for (std::size_t i = 0; i < layer.radii.size(); ++i) {
+    const std::size_t frame = layer.frames[i];
+    radii.push_back(layer.radii[i] * geometry::exponential(large[frame] - small[frame]));
+  }
+  layer.radii = std::move(radii);
 }
 
 }  // namespace

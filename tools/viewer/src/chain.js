@@ -43,6 +43,21 @@ export function poses({ frames }, values) {
   return all;
 }
 
+/** Logarithms of the factors by which radii have grown at each frame. */
+function logGrowths({ frames }, values) {
+  const all = [];
+  for (const { parent, joint, growth = 0 } of frames)
+    all.push((joint < 0 ? 0 : growth * values[joint]) + (parent < 0 ? 0 : all[parent]));
+  return all;
+}
+
+/** By how much radii have grown at each frame since the joints had their first values; null where no frame grows. */
+export function growths(chain, values) {
+  if (!chain.frames.some(({ growth }) => growth)) return null;
+  const before = logGrowths(chain, firstValues(chain));
+  return logGrowths(chain, values).map((log, i) => Math.exp(log - before[i]));
+}
+
 /** How each frame has moved since the joints had their first values; null where none has. */
 export function motions(chain, values) {
   const first = firstValues(chain);
@@ -52,11 +67,12 @@ export function motions(chain, values) {
 }
 
 /**
- * The vertices of a layer after its frames have moved, relative to the same centre; and the box around them, with
- * the radii of balls, in model units.
+ * The vertices of a layer after its frames have moved, relative to the same centre, and the radii of its balls; and the
+ * box around them, in model units. grown: of growths().
  */
-export function place({ vertices, frames, radii }, centre, all) {
+export function place({ vertices, frames, radii }, centre, all, grown = null) {
   const result = new Float32Array(vertices.length);
+  const after = radii && grown ? Float32Array.from(radii, (radius, i) => radius * grown[frames[i]]) : radii;
   const lower = [Infinity, Infinity, Infinity];
   const upper = [-Infinity, -Infinity, -Infinity];
   for (let i = 0; i < frames.length; ++i) {
@@ -64,7 +80,7 @@ export function place({ vertices, frames, radii }, centre, all) {
     const x = vertices[3 * i] + centre[0];
     const y = vertices[3 * i + 1] + centre[1];
     const z = vertices[3 * i + 2] + centre[2];
-    const radius = radii ? radii[i] : 0;
+    const radius = after ? after[i] : 0;
     for (let k = 0; k < 3; ++k) {
       const value = p[3 * k] * x + p[3 * k + 1] * y + p[3 * k + 2] * z + p[9 + k];
       result[3 * i + k] = value - centre[k];
@@ -72,5 +88,5 @@ export function place({ vertices, frames, radii }, centre, all) {
       upper[k] = Math.max(upper[k], value + radius);
     }
   }
-  return { vertices: result, lower, upper };
+  return { vertices: result, radii: after, lower, upper };
 }

@@ -208,10 +208,11 @@ export class Drawing {
     if (this.wire) this.wire.renderOrder = 3 * order + 2;
   }
 
-  /** Puts the vertices elsewhere: as many, relative to the same centre. */
-  move(vertices) {
-    if (vertices === this.arrays.vertices) return;
-    this.arrays = { ...this.arrays, vertices };
+  /** Puts the vertices elsewhere: as many, relative to the same centre; and of balls gives them other radii. */
+  move(vertices, radii = this.arrays.radii) {
+    const same = radii === this.arrays.radii;
+    if (vertices === this.arrays.vertices && same) return;
+    this.arrays = { ...this.arrays, vertices, radii };
     const { segments, triangles } = this.arrays;
     const set = (geometry, name, values) => {
       const attribute = geometry.getAttribute(name);
@@ -219,6 +220,7 @@ export class Drawing {
       attribute.needsUpdate = true;
     };
     if (this.layer.shape === 'balls') {
+      if (!same) set(this.geometry, 'radius', repeated(radii, 4));
       set(this.geometry, 'position', gathered(vertices, Uint32Array.from({ length: 4 * this.layer.count }, (_, i) => i >> 2), 3));
     } else if (this.layer.shape === 'segments') {
       set(this.geometry, 'start', gathered(vertices, every(segments, 2, 0), 3));

@@ -49,15 +49,17 @@ export class Joints {
   async move(layer, drawing, blocks) {
     if (layer.chain === undefined) return;
     const [vertices, frames] = [await blocks.get(layer.vertices), await blocks.get(layer.frames)];
+    const radii = layer.radii === undefined ? undefined : await blocks.get(layer.radii);
     const values = this.values(layer.chain);
     const motions = chain.motions(this.chains[layer.chain], values);
     if (motions === null) {
       this.#places.delete(layer.drawing);
-      drawing.move(vertices);
+      drawing.move(vertices, radii);
     } else if (this.#places.get(layer.drawing)?.values !== values) {
-      const placed = chain.place({ vertices, frames, radii: drawing.arrays.radii }, layer.centre, motions);
+      const grown = chain.growths(this.chains[layer.chain], values);
+      const placed = chain.place({ vertices, frames, radii }, layer.centre, motions, grown);
       this.#places.set(layer.drawing, { values, lower: placed.lower, upper: placed.upper });
-      drawing.move(placed.vertices);
+      drawing.move(placed.vertices, placed.radii);
     }
   }
 }

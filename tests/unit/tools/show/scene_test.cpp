@@ -210,6 +210,26 @@ TEST(scene, moves_the_mean_of_a_prior_by_a_slider_for_each_mode) {
   EXPECT_FALSE(layers[1].visible);
 }
 
+TEST(scene, changes_the_radii_of_a_prior_with_its_modes) {
+  ShapePrior prior;
+  prior.centers = {{0, 0, 0}, {9, 0, 0}};
+  prior.radii = {1, 2};
+  prior.modes = {{3, 4, 0, 0.5}, {0, 0, 0, -0.25}, {0, 0, 1, 0.125}, {0, 2, 0, 0}};
+  prior.variances = {2, 1};
+  prior.specificity = prior.specificity_deviation = {0, 0};
+  const auto layers = shown(prior);
+  ASSERT_NE(layers[0].chain, nullptr);
+  EXPECT_EQ(chain_json(*layers[0].chain).at("frames").at(2).at("growth"), -0.25) << "though its center stays";
+  // As an instance has them: exp(score * the fourth number).
+  const Layer grown = with_joint(layers, "mode 0", 2)[0];
+  EXPECT_NEAR(grown.radii[0], std::exp(1.0), 1e-15);
+  EXPECT_NEAR(grown.radii[1], 2 * std::exp(-0.5), 1e-15);
+  EXPECT_NEAR(length(grown.vertices[0] - Vec3{6, 8, 0}), 0, 1e-14);
+  const Layer second = with_joint(with_joint(layers, "mode 0", -1), "mode 1", 3)[0];
+  EXPECT_NEAR(second.radii[0], std::exp(0.375), 1e-15)
+      << "layers are given in their own pose, not in a moved one";
+}
+
 TEST(scene, shows_the_mesh_of_a_mean_that_has_one) {
   ShapePrior prior;
   prior.centers = {{0, 0, 0}};

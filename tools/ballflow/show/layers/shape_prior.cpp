@@ -1,6 +1,7 @@
 // ShapePrior: the balls of the mean, coloured by how much they vary, with a slider for each of the first
-// modes; its surface points and its mesh, which stay, and what a standard deviation of a mode does to the
-// centers, as segments. ShapeFit: the fitted balls, coloured by how uncertain they are.
+// modes, which moves centers and changes radii; its surface points and its mesh, which stay, and what a
+// standard deviation of a mode does to the centers, as segments. ShapeFit: the fitted balls, coloured by how
+// uncertain they are.
 #include "types/shape_prior.hpp"
 
 #include <algorithm>
@@ -40,10 +41,11 @@ std::shared_ptr<const Chain> sliders(const ShapePrior& prior, std::size_t modes)
       Chain::Frame frame;
       frame.name = std::to_string(ball) + "/" + std::to_string(mode);
       frame.parent = mode == 0 ? -1 : static_cast<std::int32_t>(chain->frames.size()) - 1;
+      frame.growth = prior.modes[mode * prior.balls() + ball][3];
+      if (way > 0 || frame.growth != 0) frame.joint = static_cast<std::int32_t>(mode);
       if (way > 0) {
         frame.motion = Chain::Motion::slide;
         frame.axis = (1 / way) * moved;
-        frame.joint = static_cast<std::int32_t>(mode);
         frame.factor = way;
       }
       chain->frames.push_back(std::move(frame));
