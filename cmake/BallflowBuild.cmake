@@ -177,7 +177,7 @@ endfunction()
 # ctest test of its own. What is tested is optimised as always; the tests themselves are compiled in less time, and
 # where they compute much, beside the algorithms, with -O1.
 function(ballflow_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "LIBRARIES;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "" "TIMEOUT" "LIBRARIES;LABELS;FIXTURES" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   if(NOT sources)
     return()
@@ -199,8 +199,16 @@ function(ballflow_test name)
     target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O0>)
     ballflow_precompile(TEST ${name})
   endif()
+  # A property without a value would take the next one for it.
+  set(properties TIMEOUT ${ARG_TIMEOUT})
+  if(ARG_LABELS)
+    list(APPEND properties LABELS "${ARG_LABELS}")
+  endif()
+  if(ARG_FIXTURES)
+    list(APPEND properties FIXTURES_REQUIRED "${ARG_FIXTURES}")
+  endif()
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-    TEST_PREFIX "${name}: " PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}")
+    TEST_PREFIX "${name}: " PROPERTIES ${properties})
 endfunction()
 
 # ballflow_fuzzer(name source LIBRARIES ...): a program of libFuzzer, with clang and -DBALLFLOW_FUZZERS=ON only.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 
 #include "ballflow/run.hpp"
 #include "built_registry.hpp"
@@ -22,19 +23,41 @@ std::vector<std::string> names_in(const std::string& folder) {
   return names;
 }
 
+/// Of the node libraries and of this program: what other builds made does not count.
+std::string build_mark() {
+  std::string files = "/proc/self/exe";
+  for (const PluginCandidate& library : registry().candidates()) files += '\n' + library.path;
+  std::string states;
+  std::istringstream lines(files);
+  for (std::string file; std::getline(lines, file);) {
+    states += file + ' ' + std::to_string(std::filesystem::file_size(file)) + ' ' +
+              std::to_string(std::filesystem::last_write_time(file).time_since_epoch().count()) + '\n';
+  }
+  return sha256(states).hex().substr(0, 16);
+}
+
+/// A store for each number of threads, which the tests of all graphs share: what graphs have in common is
+/// computed once with each of these numbers, by one test or another, and compared wherever it is looked at.
+std::shared_ptr<Store> results_with(unsigned threads) {
+  static const std::string root = test::binary_file("tests/contract/results/" + build_mark());
+  std::filesystem::create_directories(root);
+  return Store::open({root + "/" + std::to_string(threads), false, {}});
+}
+
 std::vector<RunResult> run_with_threads(const Dag& dag, const std::vector<unsigned>& threads) {
   std::vector<RunResult> results;
   for (const unsigned count : threads) {
     Silent silent;
     RunOptions options;
     options.threads = count;
-    Runner runner(dag, registry(), Store::open({}), options, silent);
+    Runner runner(dag, registry(), results_with(count), options, silent);
     results.push_back(runner.run());
   }
   return results;
 }
 
-/// Of two nodes with one key one runs and the other one takes its result, whichever comes first.
+/// Of two nodes with one key, in one graph or in two, one runs and the other one takes its result, whichever
+/// comes first.
 bool has_result(NodeStatus status) { return status == NodeStatus::run || status == NodeStatus::hit; }
 
 void expect_equal_digests(const Dag& dag, const std::vector<RunResult>& results) {

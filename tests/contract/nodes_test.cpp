@@ -184,6 +184,7 @@ INSTANTIATE_TEST_SUITE_P(Nodes, EveryNode, testing::ValuesIn(node_ids()),
 /// What the pages of the nodes say can be typed runs, with a small model in place of the usual one.
 TEST(Examples, run) {
   std::map<std::string, std::vector<Setting>> commands;
+  const test::TempFolder results;  // what examples have in common is computed once
   for (const auto& [id, example] : find_examples(test::source_file("graphs"), registry())) {
     std::string name = example.graph;
     for (const Setting& set : example.settings) name += " " + set.name + "=" + set.value;
@@ -194,7 +195,7 @@ TEST(Examples, run) {
     if (!commands.emplace(name, settings).second) continue;
     const Dag dag = load_graph(file, registry(), settings);
     Silent events;
-    Runner runner(dag, registry(), Store::open({}), {}, events);
+    Runner runner(dag, registry(), Store::open({results.path(), false, {}}), {}, events);
     EXPECT_EQ(runner.run().status, ExitCode::ok) << name;
   }
   EXPECT_GE(commands.size(), 3u);

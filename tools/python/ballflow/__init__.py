@@ -31,7 +31,8 @@ if TYPE_CHECKING:
     from . import geometry, nodes
     from ._graph import Graph
     from ._node import Context, Range, Unit, node
-    from ._run import NodeResult, Run, run
+    from ._results import NodeResult, Run
+    from ._run import run
     from ._sweep import Sweep, sweep
 
 __version__: str = _core.version
@@ -40,9 +41,9 @@ __version__: str = _core.version
 _LAZY = {
     "Context": "_node",
     "Graph": "_graph",
-    "NodeResult": "_run",
+    "NodeResult": "_results",
     "Range": "_node",
-    "Run": "_run",
+    "Run": "_results",
     "Sweep": "_sweep",
     "Unit": "_node",
     "run": "_run",
@@ -89,10 +90,10 @@ def load(path: Any) -> Artifact:
     """Reads an artifact from a safetensors file, as ``Artifact.save`` and the command line write it."""
     import os
 
-    from . import _run, _session
+    from . import _results, _session
 
     _session.base_registry()
-    return _run._artifact_of(_core.read_artifact(os.fspath(path)))
+    return _results.artifact_of(_core.read_artifact(os.fspath(path)))
 
 
 def __getattr__(name: str) -> Any:

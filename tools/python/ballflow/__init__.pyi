@@ -20,7 +20,8 @@ from ._errors import (
 )
 from ._graph import Graph as Graph
 from ._node import Context as Context, Range as Range, Unit as Unit, node as node
-from ._run import NodeResult as NodeResult, Run as Run, run as run
+from ._results import NodeResult as NodeResult, Run as Run
+from ._run import run as run
 from ._session import PathLike
 from ._sweep import Sweep as Sweep, sweep as sweep
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Optional, Sequence
 
 if TYPE_CHECKING:
-    from ._run import Run
+    from ._results import Run
 
 
 class BallflowError(Exception):

@@ -26,9 +26,9 @@ def entry(node: tuple[Any, str]) -> tuple[str, str, str, Any]:
 
     def call(inputs: Any, params: str, run: Any) -> Any:
         from . import _node
-        from ._run import _artifact_of
+        from ._results import artifact_of
 
-        lists = {name: [_artifact_of(core) for core in cores] for name, cores in inputs.items()}
+        lists = {name: [artifact_of(core) for core in cores] for name, cores in inputs.items()}
         try:
             outputs: dict[str, Artifact] = function.call(lists, json.loads(params), run)
         except BaseException as problem:  # whatever the function raises ends the node, not the run

@@ -11,7 +11,8 @@ from typing import Any, Iterator, Mapping, Optional, Sequence, Union
 from . import _inputs, _session
 from ._errors import BallflowWarning, Cancelled, UsageError
 from ._graph import Graph
-from ._run import GraphLike, NodeResult, Outputs, Progress, Run, _execute, _Request, _settings, _tell
+from ._results import NodeResult, Outputs, Run
+from ._run import GraphLike, Progress, _execute, _Request, _settings, _tell
 from ._session import Cache, PathLike
 
 

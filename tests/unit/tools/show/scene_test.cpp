@@ -226,8 +226,7 @@ TEST(scene, changes_the_radii_of_a_prior_with_its_modes) {
   EXPECT_NEAR(grown.radii[1], 2 * std::exp(-0.5), 1e-15);
   EXPECT_NEAR(length(grown.vertices[0] - Vec3{6, 8, 0}), 0, 1e-14);
   const Layer second = with_joint(with_joint(layers, "mode 0", -1), "mode 1", 3)[0];
-  EXPECT_NEAR(second.radii[0], std::exp(0.375), 1e-15)
-      << "layers are given in their own pose, not in a moved one";
+  EXPECT_NEAR(second.radii[0], std::exp(-0.5 + 0.375), 1e-15) << "one after the other";
 }
 
 TEST(scene, shows_the_mesh_of_a_mean_that_has_one) {
