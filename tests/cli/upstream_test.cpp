@@ -155,6 +155,49 @@ TEST_F(UpstreamCli, damage_costs_time_and_no_results) {
   EXPECT_EQ(count("c", "run"), 0) << "the second machine made good what it found damaged";
 }
 
+TEST_F(UpstreamCli, collecting_removes_what_is_old_and_costs_time_only) {
+  ASSERT_EQ(sweep("a", shared).exit_code, 0);
+  const auto files_of = [this] {
+    std::size_t n = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(shared)) n += entry.is_regular_file() ? 1 : 0;
+    return n;
+  };
+  const std::size_t before = files_of();
+  const auto collect = [this](std::vector<std::string> more) {
+    more.insert(more.begin(), {"cache", "gc", "--upstream", shared});
+    return ballflow("a", std::move(more));
+  };
+  // What says what is wrong, and removes nothing.
+  for (const auto& [arguments, words] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{}, "--upstream needs --older-than"},
+           {{"--older-than", "soon"}, "not an age"},
+           {{"--older-than", "23h"}, "--nothing-runs"}}) {
+    const ProcessResult refused = collect(arguments);
+    EXPECT_EQ(refused.exit_code, 2) << refused.out;
+    EXPECT_NE(refused.err.find(words), std::string::npos) << refused.err;
+  }
+  EXPECT_EQ(ballflow("a", {"cache", "gc", "--older-than", "1d"}).exit_code, 2) << "of which upstream?";
+  EXPECT_EQ(collect({"--older-than", "1d", "--size", "1G"}).exit_code, 2);
+  EXPECT_EQ(collect({"--older-than", "1d"}).exit_code, 0);
+  EXPECT_EQ(files_of(), before) << "all of it is young";
+  const auto long_ago = fs::file_time_type::clock::now() - std::chrono::hours(50);
+  for (const auto& entry : fs::recursive_directory_iterator(shared))
+    if (entry.is_regular_file()) fs::last_write_time(entry.path(), long_ago);
+  const ProcessResult dry = collect({"--older-than", "2d", "--dry-run"});
+  EXPECT_EQ(dry.exit_code, 0) << dry.err;
+  EXPECT_EQ(dry.out.find("would remove "), 0u) << dry.out;
+  EXPECT_EQ(files_of(), before);
+  const ProcessResult done = collect({"--older-than", "2d"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(done.out.substr(std::string("removed").size()),
+            dry.out.substr(std::string("would remove").size()));
+  EXPECT_NE(done.out.find("0 entries (0 B) and 0 artifacts (0 B) are left"), std::string::npos) << done.out;
+  EXPECT_EQ(files_of(), 0u);
+  const ProcessResult after = sweep("b", shared);
+  EXPECT_EQ(after.exit_code, 0) << after.err;
+  EXPECT_EQ(files("a"), files("b"));
+}
+
 /// nginx on loopback, with its folder; stopped with the object.
 class CacheServer {
  public:

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "ballflow/gc.hpp"
+#include "ballflow/upstream_gc.hpp"
 #include "commands/commands.hpp"
 #include "terminal/terminal.hpp"
 
@@ -182,6 +183,43 @@ int collect_garbage(const Common& common, const std::string& size, bool dry_run)
   return 0;
 }
 
+struct UpstreamArguments {
+  std::string place, age;
+  bool nothing_runs = false;
+};
+
+/// "12 entries (3.4 MB)".
+std::string count(const FileCount& files, const char* what) {
+  return count(files.files) + ' ' + what + " (" + size_text(files.bytes) + ')';
+}
+
+int collect_upstream_garbage(const UpstreamArguments& arguments, bool dry_run) {
+  constexpr std::int64_t day = 86400;
+  const auto age = parse_age(arguments.age);
+  if (!age) {
+    throw Error(ExitCode::usage,
+                arguments.age.empty() ? "--upstream needs --older-than"
+                                      : "--older-than " + arguments.age + ": not an age",
+                "write it as 36h, 90d, 8w or 1y; upstream there are no times of use, only those of writing");
+  }
+  if (*age < day && !arguments.nothing_runs) {
+    throw Error(ExitCode::usage,
+                "--older-than " + arguments.age + ": a job may be older than that, and lose what it reads",
+                "give a day (1d) or more, or say with --nothing-runs that nothing uses " + arguments.place);
+  }
+  const UpstreamCollected done = collect_upstream(arguments.place, {*age, dry_run});
+  std::printf("%s %s, %s and %s\n", dry_run ? "would remove" : "removed",
+              count(done.entries, "entries").c_str(), count(done.blobs, "artifacts").c_str(),
+              count(done.leftovers, "drafts and damaged files").c_str());
+  std::printf("%s and %s are left\n", count(done.entries_left, "entries").c_str(),
+              count(done.blobs_left, "artifacts").c_str());
+  if (done.failed.files == 0) return 0;
+  throw Error(
+      ExitCode::store,
+      count(done.failed, "files") + " could not be removed from " + arguments.place + ", first " + done.why,
+      "collect as their owner or as the owner of the folder; what is left is whole");
+}
+
 int verify_cache(const Common& common, bool full) {
   const auto store = existing(common);
   if (store == nullptr) return 0;
@@ -231,6 +269,7 @@ int change_pin(const Common& common, const std::string& digits, bool on) {
 void add_cache(const Command& app, Common& common, Action& action) {
   struct Arguments {
     std::string size, digest;
+    UpstreamArguments upstream;
     bool dry_run = false, full = false;
   };
   const auto arguments = std::make_shared<Arguments>();
@@ -248,12 +287,29 @@ void add_cache(const Command& app, Common& common, Action& action) {
       [&common] { return list_artifacts(common); });
   add("du", "sum up by type of node", [&common] { return show_usage_by_node(common); });
   const Command gc =
-      add("gc", "remove what is worth least until the cache is small enough",
-          [&common, arguments] { return collect_garbage(common, arguments->size, arguments->dry_run); });
+      add("gc", "remove what is worth least until the cache is small enough", [&common, arguments] {
+        if (!arguments->upstream.place.empty())
+          return collect_upstream_garbage(arguments->upstream, arguments->dry_run);
+        if (!arguments->upstream.age.empty() || arguments->upstream.nothing_runs) {
+          throw Error(ExitCode::usage, "--older-than and --nothing-runs are about an upstream",
+                      "name its folder with --upstream; the cache of this machine is collected by --size");
+        }
+        return collect_garbage(common, arguments->size, arguments->dry_run);
+      });
   gc.flag("--dry-run", arguments->dry_run, "only say what would be removed");
-  gc.option("--size", arguments->size,
-            "size to reach, e.g. 5G (default: the limit that \"cache stat\" shows)")
-      .type_name("SIZE");
+  Option size = gc.option("--size", arguments->size,
+                          "size to reach, e.g. 5G (default: the limit that \"cache stat\" shows)");
+  size.type_name("SIZE");
+  Option upstream = gc.option(
+      "--upstream", arguments->upstream.place,
+      "instead of the cache, an upstream in a folder: remove entries older than --older-than, then artifacts "
+      "as old that no entry names; while no job uses it");
+  upstream.type_name("DIR").excludes(size).excludes(gc.find("--cache"));
+  gc.option("--older-than", arguments->upstream.age,
+            "age of what goes from the upstream: 36h, 90d, 8w, 1y; a day or more")
+      .type_name("AGE");
+  gc.flag("--nothing-runs", arguments->upstream.nothing_runs,
+          "nothing uses the upstream: --older-than may be less than a day");
   const Command check =
       add("verify", "read everything, move what is damaged to quarantine; exit 5 if there was any",
           [&common, arguments] { return verify_cache(common, arguments->full); });
