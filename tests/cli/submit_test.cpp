@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "process.hpp"
@@ -165,6 +166,27 @@ TEST_F(SubmitCli, what_ran_out_of_memory_or_time_gets_twice_as_much) {
     most = std::max(most, option(call, "--mem="));
   }
   EXPECT_GE(most, 2 * least);
+}
+
+TEST_F(SubmitCli, what_ran_into_its_time_limit_gets_twice_the_time) {
+  const auto expected = local();
+  test::write_file(
+      folder.file("last_words"),
+      "slurmstepd: error: *** JOB 7 ON n1 CANCELLED AT 2026-12-01T10:00:00 DUE TO TIME LIMIT ***\n");
+  // Other than the least and the usual limit, so that the one asked for is seen.
+  const ProcessResult run =
+      submit({"--watch", "--unit-seconds", "1000", "--minutes", "70", "--out", folder.file("out")},
+             {{"FAKE_LOSE", "0-0"}});
+  ASSERT_EQ(run.exit_code, 0) << run.err << run.out;
+  std::set<int> minutes;
+  for (const std::string& call : calls()) {
+    const std::size_t time = call.find("--time=");
+    ASSERT_NE(time, std::string::npos) << call;
+    minutes.insert(std::atoi(call.c_str() + time + 7));
+  }
+  EXPECT_EQ(*minutes.begin(), 70);
+  EXPECT_EQ(*minutes.rbegin(), 140) << "once, not again and again";
+  EXPECT_EQ(digests(folder.file("out")), expected);
 }
 
 TEST_F(SubmitCli, a_node_that_fails_stops_nothing_else_and_is_not_repeated) {
