@@ -251,7 +251,10 @@ def dies(here: Cluster) -> None:
     expected = here.local(graph)
     out = here.submit(graph, "--unit-seconds", "1", "--watch", code=5, BALLFLOW_TOY_DIE="2001")
     assert "nothing came of the jobs" in out or "still missing" in out, out
-    assert "silent" not in here.run("status", "--store", str(here.store))
+    # What the process said last, and where the rest is.
+    said = here.run("status", "--store", str(here.store))
+    assert "toy: 2001 is one too many" in said, said
+    assert "units ended without a word" in said and "last lines of" in said, said
     here.submit(graph, "--unit-seconds", "1", "--watch")
     assert here.results(graph) == expected
 

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <thread>
@@ -53,7 +54,10 @@ struct Step {
   void run(ballflow::RunContext&) {
     const double sum = from->value + add;
     const char* const die = std::getenv("BALLFLOW_TOY_DIE");
-    if (die != nullptr && std::strtod(die, nullptr) == sum) ::_exit(37);
+    if (die != nullptr && std::strtod(die, nullptr) == sum) {
+      std::fprintf(stderr, "toy: %s is one too many\n", die);
+      ::_exit(37);
+    }
     const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
     while (std::chrono::steady_clock::now() < until) {
     }
