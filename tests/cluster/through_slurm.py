@@ -204,6 +204,28 @@ def table(here: Cluster) -> None:
     assert digests(here.root / "there/report.json") == expected
 
 
+def real(here: Cluster) -> None:
+    """Table 3.3 for six models of $BALLFLOW_TEST_DATA: the digests of a local run, byte for byte."""
+    graph = HERE.parent.parent / "graphs/experiments/table_3_3.json"
+    folder = Path(os.environ.get("BALLFLOW_TEST_DATA", HERE.parent.parent.parent / "shared/data")) / "models"
+    names = [f"{name}.off.gz" for name in ("eight", "three_holes", "anchor_dense", "fertility", "knot2", "fandisk")]
+    absent = [name for name in names if not (folder / name).exists()]
+    if absent:
+        print(f"real: SKIPPED, {folder / absent[0]} is not there")
+        return
+    models = ",".join(str(folder / name) for name in names)
+    out = here.root / "table"
+    start = time.monotonic()
+    here.run("sweep", str(graph), "--axis", f"input={models}", "--out", str(out), "--quiet", "--threads", "2", cache="alone")
+    alone = time.monotonic() - start
+    start = time.monotonic()
+    here.submit(graph, "--axis", f"input={models}", "--unit-seconds", "20", "--watch", "--out", str(here.root / "there"))
+    expected = digests(out / "report.json")
+    print(f"table_3_3 of files: {len(expected)} artifacts, {here.arrays()} sbatch calls, {alone:.0f} s here, "
+          f"{time.monotonic() - start:.0f} s through Slurm")
+    assert digests(here.root / "there/report.json") == expected
+
+
 def snakemake(here: Cluster) -> None:
     """An exported workflow: with two local processors, resumed, and with its profile for Slurm."""
     if shutil.which("snakemake") is None:
@@ -375,8 +397,8 @@ def damaged(here: Cluster) -> None:
     assert digests(report) == expected
 
 
-SCENARIOS = {f.__name__: f for f in (small, large, busy, table, snakemake, dies, cancelled, node_killed, slurmd_killed, controller_restarted,
-                                     submitter_killed, disk_full, damaged)}
+SCENARIOS = {f.__name__: f for f in (small, large, busy, table, real, snakemake, dies, cancelled, node_killed,
+                                     slurmd_killed, controller_restarted, submitter_killed, disk_full, damaged)}
 
 
 def main() -> int:
