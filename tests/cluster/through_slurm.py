@@ -281,6 +281,35 @@ def dies(here: Cluster) -> None:
     assert here.results(graph) == expected
 
 
+def clock_wrong(here: Cluster) -> None:
+    """The clock of jobs on one node is an hour ahead; Slurm itself needs right ones."""
+    libraries = sorted(Path("/usr/lib").glob("*/faketime/libfaketime.so.1"))
+    if not libraries:
+        print("clock_wrong: skipped, libfaketime is not installed")
+        return
+    here.slurm("down")
+    # Files keep their times, as they do on a file server, and durations are right on every node.
+    prolog = here.root / "prolog"
+    prolog.write_text(f"""#!/bin/sh
+[ "$SLURMD_NODENAME" = n1 ] || exit 0
+echo "export LD_PRELOAD={libraries[0]}"
+echo "export FAKETIME=+1h"
+echo "export FAKETIME_DONT_FAKE_MONOTONIC=1"
+echo "export NO_FAKE_STAT=1"
+""")
+    prolog.chmod(0o755)
+    here.slurm("up", "4", "2", str(here.port), f"TaskProlog={prolog}")
+    clocks = here.root / "clocks"
+    clocks.mkdir()
+    graph = write_graph(here.root / "graph", 8, 4, 0.1)
+    expected = here.local(graph)
+    here.submit(graph, "--unit-seconds", "2", "--watch", BALLFLOW_TOY_CLOCK=str(clocks))
+    times = {node.name: min(int(line) for line in node.read_text().split()) for node in clocks.iterdir()}
+    others = [seen for node, seen in times.items() if node != "n1"]
+    assert others and 3500 < times["n1"] - min(others) < 3900, times
+    assert here.results(graph) == expected
+
+
 def cancelled(here: Cluster) -> None:
     """scancel of a task that runs."""
     graph = write_graph(here.root / "graph", 8, 4, 0.3)
@@ -397,7 +426,7 @@ def damaged(here: Cluster) -> None:
     assert digests(report) == expected
 
 
-SCENARIOS = {f.__name__: f for f in (small, large, busy, table, real, snakemake, dies, cancelled, node_killed,
+SCENARIOS = {f.__name__: f for f in (small, large, busy, table, real, snakemake, dies, clock_wrong, cancelled, node_killed,
                                      slurmd_killed, controller_restarted, submitter_killed, disk_full, damaged)}
 
 

@@ -1,10 +1,12 @@
 // Nodes that do next to nothing, for tens of thousands of them on a cluster. $BALLFLOW_TOY_DIE ends the
-// process of the step with that value by exit code 37, as a node library with a bug would.
+// process of the step with that value by exit code 37, as a node library with a bug would. Steps append what
+// time it is on their node to a file of its name in $BALLFLOW_TOY_CLOCK.
 #include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <string>
 #include <thread>
 #include <vector>
@@ -40,6 +42,16 @@ struct Load {
   void run(ballflow::RunContext&) { count = Count{1000 * model}; }
 };
 
+void write_time() {
+  const char* const folder = std::getenv("BALLFLOW_TOY_CLOCK");
+  const char* const node = std::getenv("SLURMD_NODENAME");
+  if (folder == nullptr || node == nullptr) return;
+  std::FILE* const file = std::fopen((std::string(folder) + '/' + node).c_str(), "a");
+  if (file == nullptr) return;
+  std::fprintf(file, "%lld\n", static_cast<long long>(std::time(nullptr)));
+  std::fclose(file);
+}
+
 struct Step {
   ballflow::In<Count> from;
   ballflow::Out<Count> count;
@@ -58,6 +70,7 @@ struct Step {
       std::fprintf(stderr, "toy: %s is one too many\n", die);
       ::_exit(37);
     }
+    write_time();
     const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
     while (std::chrono::steady_clock::now() < until) {
     }
