@@ -1,14 +1,18 @@
 // Results shared by several machines, in a folder and on a server: two caches that share nothing else.
 #include <arpa/inet.h>
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
+#include <poll.h>
 #include <signal.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
+#include <future>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -214,16 +218,20 @@ class CacheServer {
     ::getsockname(probe, reinterpret_cast<sockaddr*>(&address), &size);
     ::close(probe);
     port_ = ntohs(address.sin_port);
-    test::write_file(root_ + "/nginx.conf",
-                     "daemon off; master_process off; pid " + root_ + "/pid;\n" + "error_log " + root_ +
-                         "/log;\nevents {}\nhttp {\n" + "access_log off; client_max_body_size 0;\n" +
-                         temp_paths() + "server { listen 127.0.0.1:" + std::to_string(port_) + "; root " +
-                         root_ + "/data;\n" +
-                         "location / { dav_methods PUT DELETE; create_full_put_path on; "
-                         "} } }\n");
+    configure("access_log off;");
   }
   ~CacheServer() { stop(); }
 
+  /// `log`: directives that say what is logged of requests.
+  void configure(const std::string& log) const {
+    test::write_file(root_ + "/nginx.conf",
+                     "daemon off; master_process off; pid " + root_ + "/pid;\n" + "error_log " + root_ +
+                         "/log;\nevents {}\nhttp {\n" + log + " client_max_body_size 0;\n" + temp_paths() +
+                         "server { listen 127.0.0.1:" + std::to_string(port_) + "; root " + root_ +
+                         "/data;\n" +
+                         "location / { dav_methods PUT DELETE; create_full_put_path on; "
+                         "} } }\n");
+  }
   static bool is_installed() { return fs::exists("/usr/sbin/nginx"); }
   std::string address() const { return "http://127.0.0.1:" + std::to_string(port_) + "/ballflow"; }
   std::string data() const { return root_ + "/data/ballflow"; }
@@ -310,6 +318,63 @@ TEST_F(UpstreamCli, a_server_that_dies_costs_speed_and_no_results) {
   EXPECT_EQ(refusing.exit_code, 0) << refusing.err;
   EXPECT_NE(refusing.err.find("the server answers with status"), std::string::npos) << refusing.err;
   EXPECT_EQ(files("a"), files("c"));
+}
+
+TEST_F(UpstreamCli, a_server_that_is_killed_in_the_middle_of_a_sweep_costs_speed_and_no_results) {
+  if (!CacheServer::is_installed()) GTEST_SKIP() << "nginx is not installed (Debian: nginx-light)";
+  ASSERT_EQ(sweep("a", "").exit_code, 0);
+  CacheServer server(folder.file("server"));
+  // It writes a line for each request into a pipe that holds less than one, and waits for who reads it: so it
+  // is known how far the sweep has come, however busy this machine is.
+  const std::string log = folder.file("requests");
+  ASSERT_EQ(::mkfifo(log.c_str(), 0600), 0);
+  const int requests = ::open(log.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
+  ASSERT_GE(requests, 0);
+  const int capacity = ::fcntl(requests, F_SETPIPE_SZ, 4096);
+  ASSERT_GE(capacity, 4096);
+  std::string format = "log_format told '$request";
+  for (int i = 0; i <= capacity / 500; ++i) format += "'\n '" + std::string(500, '.');
+  server.configure(format + "';\naccess_log " + log + " told;");
+  ASSERT_TRUE(server.start()) << test::read_file(folder.file("server/log"));
+
+  std::future<ProcessResult> running =
+      std::async(std::launch::async, [&] { return sweep("b", server.address()); });
+  std::string told;
+  const auto published = [&told] {
+    int n = 0;
+    for (std::size_t at = 0; (at = told.find("PUT /ballflow/ac/", at)) != std::string::npos; ++at) ++n;
+    return n;
+  };
+  while (published() < 2 && running.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+    pollfd ready{requests, POLLIN, 0};
+    if (::poll(&ready, 1, 10) <= 0) continue;
+    char text[4096];
+    const ssize_t got = ::read(requests, text, sizeof text);
+    if (got > 0) told.append(text, static_cast<std::size_t>(got));
+  }
+  server.stop();
+  ::close(requests);
+  const ProcessResult killed = running.get();
+  EXPECT_EQ(killed.exit_code, 0) << killed.err;
+  EXPECT_NE(killed.err.find("does not answer"), std::string::npos) << killed.err;
+  EXPECT_EQ(files("a"), files("b"));
+  const auto entries = [&server] {
+    return std::distance(fs::directory_iterator(server.data() + "/ac"), fs::directory_iterator());
+  };
+  const auto kept = entries();
+  EXPECT_GE(kept, 2);
+
+  // What it kept is right, and what it lacks is published by the next machine.
+  server.configure("access_log off;");
+  ASSERT_TRUE(server.start()) << test::read_file(folder.file("server/log"));
+  const ProcessResult next = sweep("c", server.address());
+  EXPECT_EQ(next.exit_code, 0) << next.err;
+  EXPECT_EQ(next.err.find("warning"), std::string::npos) << next.err;
+  EXPECT_LT(count("c", "run"), count("b", "run"));
+  EXPECT_EQ(files("a"), files("c"));
+  EXPECT_GT(entries(), kept) << "it was killed before all was published";
+  ASSERT_EQ(sweep("d", server.address()).exit_code, 0);
+  EXPECT_EQ(count("d", "run"), 0);
 }
 
 }  // namespace
