@@ -231,7 +231,7 @@ def snakemake(here: Cluster) -> None:
     if shutil.which("snakemake") is None:
         print("snakemake: skipped, it is not installed")
         return
-    graph = write_graph(here.root / "graph", 4, 30, 0)
+    graph = write_graph(here.root / "graph", 8, 30, 0)
     expected = here.local(graph)
 
     def export(name: str) -> Path:
@@ -247,6 +247,7 @@ def snakemake(here: Cluster) -> None:
 
     folder = export("workflow")
     units = len(list((folder / "units").iterdir()))
+    assert units > 250, units
     start = time.monotonic()
     snakemake(folder, "--cores", "2")
     print(f"snakemake: {units} units in {time.monotonic() - start:.0f} s on 2 processors")
