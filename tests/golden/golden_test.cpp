@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <set>
 
 #include "ballflow/run.hpp"
 #include "built_registry.hpp"
@@ -99,6 +100,20 @@ const std::vector<Case>& cases() {
        kNoTopology},
       {"double_torus_150_balls", "k_balls",
        of_vertices({{"input", "shape:doubleTorus?n=4000"}, {"k", "150"}}), kNoTopology},
+      // A bump at a place that lies between those of the model.
+      {"bump_box_completed",
+       "shape_complete",
+       {{"input", "shape:bumpBox?n=1500&r=0.65"},
+        {"extent", "whole"},
+        {"samples", "300"},
+        {"model.points", "1000"}},
+       kNoTopology},
+      // A ring of genus 1, a large and a small tetrahedron, a triangle, in turns in one file.
+      {"components",
+       "split_components",
+       {{"input", test::source_file("tests/data/components.off")}, {"components", "[0,1,2,3]"}},
+       kNoTopology},
+      {"label_ball", "label_surface", {}, kNoTopology},
   };
   return all;
 }
@@ -127,7 +142,14 @@ TEST_P(Golden, has_the_topology_of_the_model_and_the_figures_of_before) {
   Runner runner(dag, registry(), Store::open({}), {}, silent);
   const RunResult& result = runner.run();
   const std::vector<bool> needed = needed_nodes(dag);
+  std::set<std::string> ran;
+  for (const NodeResult& node : result.nodes) {
+    if (node.status == NodeStatus::run) ran.insert(node.manifest);
+  }
   for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
+    // Of nodes with equal keys one runs for all.
+    const bool shared = result.nodes[i].status == NodeStatus::hit && ran.contains(result.nodes[i].manifest);
+    if (shared && needed[i]) continue;
     ASSERT_EQ(result.nodes[i].status, needed[i] ? NodeStatus::run : NodeStatus::skipped)
         << dag.nodes[i].path << ": " << result.nodes[i].cause;
   }
