@@ -72,9 +72,10 @@ std::string matched_balls(const Json& s) {
   return text;
 }
 
+/// Chosen are balls or ellipsoids: the cover does not know. (Left out are balls alone, by CoverMatrix.)
 std::string cover(const Json& s) {
   if (s.contains("remaining") && s.at("remaining") == 0) {
-    std::string text = counted(s, "chosen", "ball") + " chosen";
+    std::string text = number(s, "chosen") + " chosen";
     if (s.at("lower_bound") == s.at("chosen")) return text + ", the fewest possible";
     // The bound is one for covering: it knows nothing of balls that the topology asked for.
     const std::int64_t returned = s.value("returned", std::int64_t{0});
@@ -90,7 +91,7 @@ std::string cover(const Json& s) {
   }
   std::string text = number(s, "rows") + " x " + number(s, "cols") + ", " + number(s, "nnz") + " entries";
   if (s.value("left_out", std::int64_t{0}) > 0) text += ", " + number(s, "left_out") + " balls left out";
-  if (s.contains("chosen") && s.at("chosen") != 0) text += ", " + counted(s, "chosen", "ball") + " chosen";
+  if (s.contains("chosen") && s.at("chosen") != 0) text += ", " + number(s, "chosen") + " chosen";
   return text;
 }
 

@@ -51,8 +51,13 @@ class Facts {
   void balls() {
     if (ellipsoids()) return;
     if (const OutputEntry* const cover = of_type("CoverState")) {
-      if (summary(*cover).value("chosen", 0) > 0) {
-        facts_.push_back(describe(*cover));
+      if (const std::int64_t chosen = summary(*cover).value("chosen", std::int64_t{0}); chosen > 0) {
+        std::string words = describe(*cover);
+        // What was chosen the cover does not know, but the graph gives it out.
+        const std::size_t verb = words.find(" chosen");
+        if (verb != std::string::npos && of_type("Balls") != nullptr)
+          words.insert(verb, chosen == 1 ? " ball" : " balls");
+        facts_.push_back(words);
         return;
       }
     }

@@ -41,9 +41,17 @@ TEST(key_facts, tell_returned_balls_from_those_that_cover) {
       "cover", "CoverState",
       R"({"remaining": 0, "chosen": 300, "returned": 60, "lower_bound": 200, "gap": 0.5})"};
   EXPECT_EQ(
-      key_facts(outputs({repaired}), Json::object())[0],
+      key_facts(outputs({repaired, balls}), Json::object())[0],
       "300 balls chosen (60 of them for the topology), at least 200 needed to cover, gap 50.00 %, 20.00 % "
       "without those");
+}
+
+TEST(key_facts, do_not_call_what_covers_balls_where_no_balls_come_out) {
+  EXPECT_EQ(key_facts(outputs({cover}), Json::object())[0], "286 chosen, at least 265 needed, gap 7.92 %");
+  const std::array<std::string, 3> one = {"cover", "CoverState",
+                                          R"({"remaining": 0, "chosen": 1, "lower_bound": 1, "gap": 0})"};
+  EXPECT_EQ(key_facts(outputs({one, balls}), Json::object())[0], "1 ball chosen, the fewest possible");
+  EXPECT_EQ(key_facts(outputs({one}), Json::object())[0], "1 chosen, the fewest possible");
 }
 
 TEST(key_facts, name_the_balls_that_are_the_result) {
@@ -132,6 +140,17 @@ TEST(describe, says_which_instance_is_the_template_and_how_a_mesh_of_a_model_fol
             "12 triangles, closed, genus 0, 2 triangles FOLDED, 1 self-intersection, 0.25 from the balls");
   EXPECT_EQ(said("TriangleMesh", R"({"faces": 1, "closed": false, "frame": "the axes of the grid"})"),
             "1 triangle, open; x, y, z: the axes of the grid");
+}
+
+// The rows of a cover may be ellipsoids: strategies of pruning do not ask.
+TEST(describe, says_of_a_cover_how_many_and_not_what) {
+  const auto said = [](const char* summary) {
+    return describe(outputs({{"x", "CoverState", summary}}).front().second);
+  };
+  EXPECT_EQ(said(R"({"remaining": 0, "chosen": 60, "lower_bound": 7, "gap": 7.5})"),
+            "60 chosen, at least 7 needed, gap 750.00 %");
+  EXPECT_EQ(said(R"({"remaining": 9, "rows": 70, "cols": 9, "nnz": 300, "left_out": 2, "chosen": 5})"),
+            "70 x 9, 300 entries, 2 balls left out, 5 chosen");
 }
 
 TEST(remedy, is_about_the_first_step_that_changed_the_topology) {
