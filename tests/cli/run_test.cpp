@@ -127,6 +127,22 @@ TEST_F(CliTest, a_run_ends_with_what_matters_and_where_to_look) {
   EXPECT_EQ(run({"--set", small, "--no-cache"}).out.find("more:"), std::string::npos);
 }
 
+TEST_F(CliTest, what_nodes_share_is_not_said_to_come_from_the_cache) {
+  test::write_file(folder.file("graph.json"), R"({
+    "nodes": { "a": { "type": "Sample", "params": { "file": "shape:sphere?n=300" } },
+               "b": { "type": "Sample", "params": { "file": "shape:sphere?n=300" } },
+               "c": { "type": "Sample", "params": { "file": "shape:sphere?n=400" } } },
+    "outputs": { "a": "a.mesh", "b": "b.mesh", "c": "c.mesh" } })");
+  const auto totals = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"run", folder.file("graph.json")});
+    return ballflow(std::move(arguments)).out;
+  };
+  const std::string alone = totals({"--no-cache"}), first = totals({}), second = totals({});
+  EXPECT_NE(alone.find("\n2 run, 0 from the cache, 1 shared, "), std::string::npos) << alone;
+  EXPECT_NE(first.find("\n2 run, 0 from the cache, 1 shared, "), std::string::npos) << first;
+  EXPECT_NE(second.find("\n0 run, 2 from the cache, 1 shared, "), std::string::npos) << second;
+}
+
 TEST_F(CliTest, a_cover_as_small_as_its_bound_is_called_the_fewest_possible) {
   EXPECT_NE(run({"--set", small}).out.find("balls chosen, the fewest possible"), std::string::npos);
   const ProcessResult greedy = run({"--set", small, "--set", "strategy=greedy"});

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <set>
 
 #include "ballflow/gc.hpp"
 #include "ballflow/history.hpp"
@@ -54,14 +55,25 @@ std::string again(const Common& common, const RunArguments& arguments) {
   return line;
 }
 
+/// How many nodes ran, and how many came from the cache. Apart from these: nodes that share their key, and so
+/// their result, with another one that counts; artifacts that were given.
 void print_totals(const RunResult& result) {
-  const auto count = [&result](NodeStatus status) {
-    return std::count_if(result.nodes.begin(), result.nodes.end(),
-                         [status](const NodeResult& node) { return node.status == status; });
-  };
-  std::printf("\n%s run, %s from the cache, %s (%s CPU), %s MB at most\n",
-              std::to_string(count(NodeStatus::run)).c_str(), std::to_string(count(NodeStatus::hit)).c_str(),
-              duration(result.seconds).c_str(), duration(result.cpu_seconds).c_str(),
+  std::set<std::string> keys;
+  std::size_t run = 0, cached = 0, shared = 0, given = 0;
+  for (const NodeResult& node : result.nodes) {
+    if (node.status != NodeStatus::run) continue;
+    ++run;
+    keys.insert(node.manifest);
+  }
+  for (const NodeResult& node : result.nodes) {
+    if (node.status != NodeStatus::hit) continue;
+    ++(node.manifest.empty() ? given : keys.insert(node.manifest).second ? cached : shared);
+  }
+  std::string line = std::to_string(run) + " run, " + std::to_string(cached) + " from the cache";
+  if (shared > 0) line += ", " + std::to_string(shared) + " shared";
+  if (given > 0) line += ", " + std::to_string(given) + " given";
+  std::printf("\n%s, %s (%s CPU), %s MB at most\n", line.c_str(), duration(result.seconds).c_str(),
+              duration(result.cpu_seconds).c_str(),
               grouped(static_cast<std::int64_t>(result.peak_rss_bytes >> 20)).c_str());
 }
 
