@@ -420,3 +420,17 @@ def test_the_viewer_shows_a_run(monkeypatch):
     for url in opened:
         os.remove(url[len("file://") :])
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+def test_a_notebook_gets_a_frame(monkeypatch):
+    import html
+    import sys
+    import types
+
+    kernel = types.SimpleNamespace(config={"IPKernelApp": {}})
+    monkeypatch.setitem(sys.modules, "IPython", types.SimpleNamespace(get_ipython=lambda: kernel))
+    monkeypatch.setattr("webbrowser.open", lambda url: pytest.fail("a browser was opened"))
+    frame = bf.run("balls", file="balls:0 0 0 1; 1.5 0 0 1").view(height=300)._repr_html_()
+    assert frame.startswith('<iframe srcdoc="') and 'height="300"' in frame
+    page = html.unescape(frame[len('<iframe srcdoc="') : frame.index('" width=')])
+    assert page.lstrip().lower().startswith("<!doctype html>") and "balls" in page

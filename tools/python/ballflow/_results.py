@@ -95,6 +95,23 @@ class Outputs(Mapping[str, Artifact]):
         return f"<outputs: {', '.join(self._places)}>"
 
 
+class _Frame:
+    """A page within a notebook."""
+
+    def __init__(self, page: str, width: Union[int, str], height: int) -> None:
+        self._page = page
+        self._size = (width, height)
+
+    def _repr_html_(self) -> str:
+        import html
+
+        width, height = self._size
+        return (
+            f'<iframe srcdoc="{html.escape(self._page, quote=True)}" width="{html.escape(str(width))}" '
+            f'height="{int(height)}" style="border:0" sandbox="allow-scripts allow-downloads"></iframe>'
+        )
+
+
 class Run:
     """A run that has ended. Its outputs are attributes and in ``outputs``; ``run["prune/bound"]`` is a node.
 
@@ -220,12 +237,8 @@ class Run:
         except ImportError:
             in_notebook = False
         if in_notebook:
-            import html
+            return _Frame(page, width, height)
 
-            return importlib.import_module("IPython.display").HTML(
-                f'<iframe srcdoc="{html.escape(page, quote=True)}" width="{width}" height="{height}" '
-                'style="border:0" sandbox="allow-scripts allow-downloads"></iframe>'
-            )
         handle, path = tempfile.mkstemp(prefix="ballflow-", suffix=".html")
         with os.fdopen(handle, "w", encoding="utf-8") as file:
             file.write(page)
