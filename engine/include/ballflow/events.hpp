@@ -40,6 +40,9 @@ struct Event {
   std::uint64_t memory = 0;  // what running nodes claim, and outputs that are held (RunOptions::memory_bytes)
 };
 
+/// "node_started", as in schemas/run_events.schema.json.
+std::string_view to_string(Event::Kind kind);
+
 /// Receives events one at a time, from any thread.
 class EventSink {
  public:

@@ -31,6 +31,30 @@ std::string_view to_string(NodeStatus status) {
   return "";
 }
 
+std::string_view to_string(Event::Kind kind) {
+  switch (kind) {
+    case Event::Kind::run_started:
+      return "run_started";
+    case Event::Kind::node_waiting:
+      return "node_waiting";
+    case Event::Kind::node_started:
+      return "node_started";
+    case Event::Kind::node_progress:
+      return "node_progress";
+    case Event::Kind::node_message:
+      return "node_message";
+    case Event::Kind::cache_read:
+      return "cache_read";
+    case Event::Kind::cache_write:
+      return "cache_write";
+    case Event::Kind::node_finished:
+      return "node_finished";
+    case Event::Kind::run_finished:
+      return "run_finished";
+  }
+  return "";
+}
+
 Runner::Impl::Impl(const Dag& dag, const Registry& registry, std::shared_ptr<Store> store, RunOptions options,
                    EventSink& events, Manifests earlier)
     : dag_(dag),

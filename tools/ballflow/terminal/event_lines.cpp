@@ -12,7 +12,7 @@ class Lines final : public EventSink {
   explicit Lines(const Dag& dag) : dag_(dag) {}
 
   void on(const Event& event) override {
-    Json line = {{"time", event.time}, {"event", name(event.kind)}};
+    Json line = {{"time", event.time}, {"event", to_string(event.kind)}};
     const bool of_node = event.kind != Event::Kind::run_started && event.kind != Event::Kind::run_finished;
     if (of_node) line["node"] = dag_.nodes[event.node].path;
     switch (event.kind) {
@@ -50,29 +50,6 @@ class Lines final : public EventSink {
   }
 
  private:
-  static const char* name(Event::Kind kind) {
-    switch (kind) {
-      case Event::Kind::run_started:
-        return "run_started";
-      case Event::Kind::node_waiting:
-        return "node_waiting";
-      case Event::Kind::node_started:
-        return "node_started";
-      case Event::Kind::node_progress:
-        return "node_progress";
-      case Event::Kind::node_message:
-        return "node_message";
-      case Event::Kind::cache_read:
-        return "cache_read";
-      case Event::Kind::cache_write:
-        return "cache_write";
-      case Event::Kind::node_finished:
-        return "node_finished";
-      case Event::Kind::run_finished:
-        return "run_finished";
-    }
-    return "";
-  }
   const Dag& dag_;
 };
 

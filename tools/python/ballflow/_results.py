@@ -179,7 +179,8 @@ class Run:
     def __repr__(self) -> str:
         ran = sum(node.status == "run" for node in self.nodes.values())
         hit = sum(node.status == "hit" for node in self.nodes.values())
-        lines = [f"<run of {self.report['graph']}: {self.status}, {ran} run, {hit} from the cache, {self.seconds:.3g} s"]
+        taken = "shared" if self._cache is False else "from the cache"  # equal nodes of a graph are computed once
+        lines = [f"<run of {self.report['graph']}: {self.status}, {ran} run, {hit} {taken}, {self.seconds:.3g} s"]
         lines += [f"  {name}: {kind or status}  {numbers[:100]}" for name, kind, status, numbers in self._rows()]
         return "\n".join(lines) + ">"
 

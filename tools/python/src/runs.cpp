@@ -78,30 +78,9 @@ class Queue final : public EventSink {
   bool finished_ = false;
 };
 
-const char* name_of(Event::Kind kind) {
-  switch (kind) {
-    case Event::Kind::run_started:
-      return "run_started";
-    case Event::Kind::node_waiting:
-      return "node_waiting";
-    case Event::Kind::node_started:
-      return "node_started";
-    case Event::Kind::node_progress:
-      return "node_progress";
-    case Event::Kind::node_message:
-      return "node_message";
-    case Event::Kind::node_finished:
-      return "node_finished";
-    case Event::Kind::run_finished:
-      return "run_finished";
-    default:
-      return "";
-  }
-}
-
 py::dict dict_of(const Told& told, const Dag& dag) {
   py::dict event;
-  event["event"] = name_of(told.kind);
+  event["event"] = std::string(to_string(told.kind));
   event["time"] = told.time;
   if (told.kind == Event::Kind::run_started || told.kind == Event::Kind::run_finished) return event;
   event["node"] = dag.nodes[told.node].path;
