@@ -212,7 +212,8 @@ export class Drawing {
   move(vertices, radii = this.arrays.radii) {
     const same = radii === this.arrays.radii;
     if (vertices === this.arrays.vertices && same) return;
-    this.arrays = { ...this.arrays, vertices, radii };
+    this.arrays = { ...this.arrays, vertices };
+    if (!same) this.arrays.radii = radii; // only balls have some
     const { segments, triangles } = this.arrays;
     const set = (geometry, name, values) => {
       const attribute = geometry.getAttribute(name);
