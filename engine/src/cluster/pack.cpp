@@ -53,7 +53,7 @@ std::vector<UnitArray> pack(const Dag& dag, const std::vector<NodePlan>& plans, 
   std::vector<std::size_t> readers(n, 0), chain_of(n, none);
   for (std::size_t i = 0; i < n; ++i) {
     if (!has_to_run(plans[i])) continue;
-    chain_of[i] = 0;  // for now: it runs
+    chain_of[i] = 0;  // any number marks a node that runs; its chain is found below
     for (const std::size_t producer : producers_of(dag.nodes[i], chain_of)) ++readers[producer];
   }
   std::vector<Chain> chains;
