@@ -18,6 +18,13 @@
 
 namespace ballflow {
 
+/// How far a loop has come. Whoever begins with this ends with the same as one who begins at the beginning.
+struct LoopState {
+  std::int64_t iterations = 0;                // that have ended
+  std::map<std::string, ArtifactPtr> states;  // by name, every output of the body
+  std::vector<std::string> warnings;          // so far
+};
+
 /// One execution of one node: of a DAG, or of a loop as a whole.
 struct ExecutionRequest {
   const DagNode* node = nullptr;
@@ -26,6 +33,7 @@ struct ExecutionRequest {
   unsigned threads = 1;                       // that the node may use
   std::uint64_t seed = 0;
   std::uint64_t memory_bytes = 0;  // budget of the run, so that a node that needs more can say so; 0: unknown
+  const LoopState* resume = nullptr;  // of a loop: begin here; an executor may begin at the beginning
   // All three may be called from any thread, until the execution ends. Whoever is asked to stop does so soon.
   std::function<bool()> cancelled;
   std::function<void(double)> progress;  // 0 to 1
@@ -45,6 +53,7 @@ struct ExecutionOutcome {
   std::string cause, hint;                 // when failed
   std::optional<InnerCall> failed_call;    // when failed in the body of a loop
   std::optional<std::int64_t> iterations;  // of a loop
+  std::optional<LoopState> reached;        // of a loop that did not fail; an executor may leave it out
   double seconds = 0, cpu_seconds = 0;     // the latter to 0.1 ms
 };
 

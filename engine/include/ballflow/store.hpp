@@ -135,6 +135,11 @@ class Store {
   /// counts, and readers see the old entry or the new one. Not stored when it could not be written (full
   /// disk, read-only).
   ActionPut put_action(const Digest& key, const ActionEntry& entry, bool sync = false);
+  /// Entries of work that is not at its end: others may have got further, and all are right. Here or
+  /// upstream; its blobs may be missing.
+  std::optional<ActionEntry> find_state(const Digest& key);
+  /// The first entry stays upstream; gives that one where it is another. To be called after its blobs.
+  std::optional<ActionEntry> put_state(const Digest& key, const ActionEntry& entry);
 
   /// Whether a file of the right name and size is there, or upstream; load() may still find it damaged.
   bool has_blob(const OutputEntry& output);

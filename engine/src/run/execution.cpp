@@ -5,6 +5,7 @@
 
 #include "base/quote.hpp"
 #include "run/loop.hpp"
+#include "run/loop_states.hpp"
 #include "run/runner.hpp"
 
 namespace ballflow {
@@ -52,7 +53,8 @@ void Runner::Impl::check_files(std::size_t i) {
 NodeStatus Runner::Impl::execute_and_publish(std::size_t i) {
   State& state = *states_[i];
   NodeResult& result = result_.nodes[i];
-  const ExecutionOutcome outcome = execute(i, options_.threads);
+  const bool may_be_kept = dag_.nodes[i].kind.loop() != nullptr && store_->is_transport() && !is_forced(i);
+  const ExecutionOutcome outcome = may_be_kept ? execute_for_jobs(i) : execute(i, options_.threads);
   result.seconds = result.cost_seconds = outcome.seconds;
   result.cpu_seconds = outcome.cpu_seconds;
   result.warnings = outcome.warnings;
@@ -106,7 +108,34 @@ void Runner::Impl::compare_with_earlier(std::size_t i, const ExecutionOutcome& o
           "the author has not raised the behaviour version");
 }
 
-ExecutionOutcome Runner::Impl::execute(std::size_t i, unsigned threads) {
+/// A loop goes on where a job that was cancelled had come to, and leaves that when this one is. Elsewhere
+/// than between jobs it does not: who presses Ctrl-C does not wait for a state to be stored.
+ExecutionOutcome Runner::Impl::execute_for_jobs(std::size_t i) {
+  LoopStates kept(*store_, *dag_.nodes[i].kind.loop(), *states_[i]->key);
+  const auto before =
+      kept.latest([&](const std::string& text) { message(i, true, text + "; an earlier one counts"); });
+  if (before) message(i, false, "goes on after iteration " + std::to_string(before->state.iterations));
+  ExecutionOutcome outcome = execute(i, options_.threads, before ? &before->state : nullptr);
+  if (before) {  // what it takes in all
+    outcome.seconds += before->seconds;
+    outcome.cpu_seconds += before->cpu_seconds;
+  }
+  const bool further = outcome.reached && (!before || outcome.reached->iterations > before->state.iterations);
+  if (outcome.status != ExecutionOutcome::Status::cancelled || !further || !cancelled() || void_)
+    return outcome;
+  try {
+    check_files(i);
+    kept.put({*outcome.reached, outcome.seconds, outcome.cpu_seconds});
+    message(i, false,
+            "stops after iteration " + std::to_string(outcome.reached->iterations) +
+                ", where the next job goes on");
+  } catch (const Error& error) {
+    message(i, true, "the next job begins anew: " + std::string(error.what()));
+  }
+  return outcome;
+}
+
+ExecutionOutcome Runner::Impl::execute(std::size_t i, unsigned threads, const LoopState* resume) {
   const DagNode& node = dag_.nodes[i];
   ExecutionRequest request;
   request.node = &node;
@@ -114,6 +143,7 @@ ExecutionOutcome Runner::Impl::execute(std::size_t i, unsigned threads) {
   request.threads = threads;
   request.seed = options_.seed;
   request.memory_bytes = options_.memory_bytes;
+  request.resume = resume;
   for (const auto& [port, edge] : node.inputs) request.inputs[port] = ensure(edge, i);
   request.cancelled = [this] { return stopping(); };
   request.progress = [this, i](double fraction) { progress(i, fraction); };

@@ -23,6 +23,7 @@ class LoopRun {
 
   ExecutionOutcome run() {
     try {
+      if (request_.resume != nullptr) resume(*request_.resume);
       while (!until_holds(loop_, states_)) {
         if (request_.cancelled()) end(ExecutionOutcome::Status::cancelled);
         if (iteration_ == loop_.max_iterations) {
@@ -31,6 +32,7 @@ class LoopRun {
         }
         ++iteration_;
         iterate();
+        ++whole_;
         request_.progress(progress());
       }
       outcome_.status = ExecutionOutcome::Status::ok;
@@ -43,6 +45,7 @@ class LoopRun {
       outcome_.hint = error.hint();
     }
     outcome_.iterations = iteration_;
+    if (outcome_.status != ExecutionOutcome::Status::failed) outcome_.reached = reached();
     return std::move(outcome_);
   }
 
@@ -50,6 +53,20 @@ class LoopRun {
   [[noreturn]] void end(ExecutionOutcome::Status status) {
     outcome_.status = status;
     throw Ended();
+  }
+
+  void resume(const LoopState& from) {
+    iteration_ = whole_ = from.iterations;
+    for (const auto& [name, artifact] : from.states) states_[name] = artifact;
+    for (const std::string& warning : from.warnings) pass_on(true, warning);
+  }
+
+  /// Nothing before the first iteration has ended: that is what the loop was given.
+  std::optional<LoopState> reached() const {
+    if (whole_ == 0) return std::nullopt;
+    LoopState state{whole_, {}, outcome_.warnings};
+    for (const DagOutput& output : loop_.body.outputs) state.states[output.name] = states_.at(output.name);
+    return state;
   }
 
   void reach_limit() {
@@ -71,6 +88,7 @@ class LoopRun {
     for (std::size_t i = 0; i < loop_.body.nodes.size(); ++i) {
       ExecutionRequest request = request_;
       request.node = &loop_.body.nodes[i];
+      request.resume = nullptr;
       request.inputs.clear();
       for (const auto& [port, edge] : request.node->inputs) {
         if (ArtifactPtr input = artifact(edge)) request.inputs[port] = std::move(input);
@@ -122,7 +140,7 @@ class LoopRun {
   const ExecutionRequest& request_;
   const Loop& loop_;
   std::map<std::string, ArtifactPtr> states_;  // and the inputs that stay
-  std::int64_t iteration_ = 0;
+  std::int64_t iteration_ = 0, whole_ = 0;     // the one that runs, and how many have ended
   double farthest_ = 0;
   ExecutionOutcome outcome_;
   std::mutex messages_mutex_;

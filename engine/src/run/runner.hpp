@@ -107,7 +107,8 @@ class Runner::Impl {
   void check_files(std::size_t i);
   void compare_with_earlier(std::size_t i, const ExecutionOutcome& outcome);
   NodeStatus execute_and_publish(std::size_t i);
-  ExecutionOutcome execute(std::size_t i, unsigned threads);
+  ExecutionOutcome execute(std::size_t i, unsigned threads, const LoopState* resume = nullptr);
+  ExecutionOutcome execute_for_jobs(std::size_t i);
   void progress(std::size_t i, double fraction);
   std::vector<OutputEntry> publish(std::size_t i, const ExecutionOutcome& outcome);
 

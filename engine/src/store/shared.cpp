@@ -305,7 +305,8 @@ bool SharedResults::put(const Artifact& artifact, bool sync, const std::function
   return published;
 }
 
-std::optional<ActionEntry> SharedResults::put(const Digest& key, const ActionEntry& entry, bool sync) {
+std::optional<ActionEntry> SharedResults::put(const Digest& key, const ActionEntry& entry, bool sync,
+                                              Others others) {
   if (use_.read_only) return std::nullopt;
   {
     const std::lock_guard lock(mutex_);
@@ -323,6 +324,7 @@ std::optional<ActionEntry> SharedResults::put(const Digest& key, const ActionEnt
     auto kept = read_entry(key);
     if (!kept) continue;
     if (kept->outputs == entry.outputs) return std::nullopt;
+    if (others == Others::right) return kept;
     note(shown(Room::actions, key) +
          " names another result than the one that was computed here for equal inputs and parameters: a node "
          "that is not deterministic, or a machine that computes wrongly; the upstream keeps its own");

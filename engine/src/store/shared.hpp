@@ -36,9 +36,11 @@ class SharedResults {
 
   /// Whether the blob is there now. Throws Error (code store) when it is not and has to be.
   bool put(const Artifact& artifact, bool sync, const std::function<bool()>& give_up);
+  enum class Others { wrong, right };  // what an entry with other outputs is
   /// Not where one of the blobs failed. The entry that is there and names other outputs, if so. Throws as
   /// above.
-  std::optional<ActionEntry> put(const Digest& key, const ActionEntry& entry, bool sync);
+  std::optional<ActionEntry> put(const Digest& key, const ActionEntry& entry, bool sync,
+                                 Others others = Others::wrong);
 
   std::vector<std::string> notes() const;
 

@@ -88,6 +88,17 @@ ActionPut Store::put_action(const Digest& key, const ActionEntry& entry, bool sy
   return put;
 }
 
+std::optional<ActionEntry> Store::find_state(const Digest& key) { return find_anywhere(key); }
+std::optional<ActionEntry> Store::put_state(const Digest& key, const ActionEntry& entry) {
+  if (!shares()) {
+    parts_->actions.put(key, entry, true);
+    return std::nullopt;
+  }
+  auto kept = parts_->shared.put(key, entry, true, SharedResults::Others::right);
+  parts_->actions.put(key, kept ? *kept : entry, true);
+  return kept;
+}
+
 bool Store::has_blob(const OutputEntry& output) {
   return parts_->blobs.has(output) || (parts_->shared && parts_->shared.has(output));
 }
