@@ -53,7 +53,10 @@ echo 7)");
 MaxArraySize            = ${FAKE_ARRAY:-1001}
 MaxJobCount             = 10000"
 exit 0)");
-    program("squeue", "exit 0");
+    // How the first task ended: $FAKE_END.
+    program("squeue", R"(
+case "$*" in *--states=all*) [ -z "$FAKE_END" ] || echo "7_0|$FAKE_END|None" ;; esac
+exit 0)");
     program("scancel", "echo scancel \"$@\" >> \"$FAKE/calls\"");
     test::write_file(folder.file("last_words"), "");
   }
@@ -166,6 +169,38 @@ TEST_F(SubmitCli, what_ran_out_of_memory_or_time_gets_twice_as_much) {
     most = std::max(most, option(call, "--mem="));
   }
   EXPECT_GE(most, 2 * least);
+}
+
+TEST_F(SubmitCli, the_state_of_a_job_says_what_it_ran_out_of_where_its_log_is_silent) {
+  const auto most = [this](const std::string& name) {
+    int number = 0;
+    for (const std::string& call : calls())
+      number = std::max(number, std::atoi(call.c_str() + call.find(name) + name.size()));
+    return number;
+  };
+  const auto run = [&](const std::string& end) {
+    fs::remove(folder.file("lost"));
+    fs::remove(folder.file("calls"));
+    fs::remove_all(store);
+    fs::create_directory(store);
+    // One model, nothing from earlier runs.
+    const ProcessResult done = ballflow(
+        sweep("submit",
+              {"--store", store, "--patience", "0", "--watch", "--unit-seconds", "1000", "--minutes", "70"},
+              "shape:box?n=200"),
+        {{"FAKE_LOSE", end.empty() ? "" : "0-0"},
+         {"FAKE_END", end},
+         {"BALLFLOW_CACHE", folder.file("cache " + end)}});
+    EXPECT_EQ(done.exit_code, 0) << done.err << done.out;
+  };
+  run("");
+  const int memory = most("--mem="), minutes = most("--time=");
+  run("OUT_OF_MEMORY");
+  EXPECT_EQ(most("--mem="), 2 * memory);
+  EXPECT_EQ(most("--time="), minutes);
+  run("TIMEOUT");
+  EXPECT_EQ(most("--mem="), memory);
+  EXPECT_EQ(most("--time="), 2 * minutes);
 }
 
 TEST_F(SubmitCli, what_ran_into_its_time_limit_gets_twice_the_time) {

@@ -20,6 +20,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -53,10 +54,11 @@ std::string unit_text(const Unit& unit);
 Unit read_unit(const std::string& text, const Registry& registry);
 
 struct PackOptions {
-  double unit_seconds = 300;          // short nodes are put together until a unit is worth as much
-  double unknown_seconds = 1;         // of a node that never ran
-  std::uint64_t base = 384u << 20;    // bytes that a process needs besides its nodes
-  std::size_t most_units = SIZE_MAX;  // in one array
+  double unit_seconds = 300;                    // short nodes are put together until a unit is worth as much
+  double unknown_seconds = 1;                   // of a node that never ran
+  std::map<std::string, double> usual_seconds;  // the same by node type, where that is known
+  std::uint64_t base = 384u << 20;              // bytes that a process needs besides its nodes
+  std::size_t most_units = SIZE_MAX;            // in one array
   // By node of the Dag, empty: as predicted. How many times as much memory and time it gets: it ran out
   // before.
   std::vector<double> memory_factor, time_factor;

@@ -40,6 +40,11 @@ std::uint64_t memory_class(std::uint64_t estimate, double factor, const PackOpti
   return std::bit_ceil(static_cast<std::uint64_t>(most));
 }
 
+double usual_seconds(const DagNode& node, const PackOptions& options) {
+  const auto usual = options.usual_seconds.find(node.kind.type());
+  return usual == options.usual_seconds.end() ? options.unknown_seconds : usual->second;
+}
+
 }  // namespace
 
 double UnitArray::longest() const {
@@ -73,7 +78,7 @@ std::vector<UnitArray> pack(const Dag& dag, const std::vector<NodePlan>& plans, 
     }
     chain_of[i] = chain;
     chains[chain].nodes.push_back(i);
-    chains[chain].seconds += plans[i].seconds.value_or(options.unknown_seconds);
+    chains[chain].seconds += plans[i].seconds.value_or(usual_seconds(dag.nodes[i], options));
     if (!options.time_factor.empty())
       chains[chain].time_factor = std::max(chains[chain].time_factor, options.time_factor[i]);
     if (!options.alone.empty()) chains[chain].alone = chains[chain].alone || options.alone[i];

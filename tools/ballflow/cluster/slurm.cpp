@@ -37,12 +37,14 @@ struct Line {
   std::string id, state, reason;
 };
 
-std::vector<Line> lines_of(const std::vector<std::string>& jobs) {
+/// Of tasks that have not ended, or with `all` of ended ones, too.
+std::vector<Line> lines_of(const std::vector<std::string>& jobs, bool all = false) {
   std::vector<Line> lines;
   if (jobs.empty()) return lines;
   // Jobs that ended long ago are forgotten; squeue knows none of these ids then and says so as an error.
-  const std::vector<std::string> words{"squeue", "--noheader", "--array", "--jobs=" + joined(jobs, ','),
-                                       "--format=%i|%T|%r"};
+  std::vector<std::string> words{"squeue", "--noheader", "--array", "--jobs=" + joined(jobs, ','),
+                                 "--format=%i|%T|%r"};
+  if (all) words.push_back("--states=all");
   ProgramResult result = run_program(words);
   if (result.exit_code != 0) {
     if (result.err.find("Invalid job id") != std::string::npos) return lines;
@@ -94,7 +96,7 @@ std::vector<std::string> submit_words(const Array& array) {
                                  "--open-mode=append",
                                  "--requeue",
                                  "--kill-on-invalid-dep=yes",
-                                 "--signal=B:TERM@60",
+                                 "--signal=B:USR1@60",
                                  "--cpus-per-task=" + std::to_string(array.threads),
                                  "--mem=" + std::to_string(array.memory >> 20) + "M",
                                  "--time=" + std::to_string(array.minutes)};
@@ -111,6 +113,15 @@ std::vector<std::string> submit_words(const Array& array) {
 std::string submit(const Array& array) {
   std::string id = answer(submit_words(array));
   return id.substr(0, id.find_first_of(";\n"));  // "<id>;<cluster>" where there are several
+}
+
+std::map<std::string, std::string> ends(const std::vector<std::string>& jobs) {
+  std::map<std::string, std::string> states;
+  try {
+    for (const Line& line : lines_of(jobs, true)) states[line.id] = line.state;
+  } catch (const Error&) {  // a hint only: logs say it, too
+  }
+  return states;
 }
 
 Tasks tasks(const std::vector<std::string>& jobs) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,10 @@ struct Tasks {
   std::size_t pending = 0, running = 0, held = 0, hopeless = 0;  // the latter two wait for ever as they are
   std::size_t active() const { return pending + running; }
 };
+
+/// How tasks of these jobs ended, by "<job>_<task>": "OUT_OF_MEMORY", "TIMEOUT", "FAILED", ... Of those that
+/// the scheduler remembers, which is some minutes; of none when it does not answer.
+std::map<std::string, std::string> ends(const std::vector<std::string>& jobs);
 
 /// Of these jobs, what has not ended. Throws Error when the scheduler does not answer.
 Tasks tasks(const std::vector<std::string>& jobs);

@@ -6,6 +6,8 @@
 
 #include "ballflow/gc.hpp"
 #include "ballflow/upstream_gc.hpp"
+#include "cluster/slurm.hpp"
+#include "cluster/submission.hpp"
 #include "commands/commands.hpp"
 #include "terminal/terminal.hpp"
 
@@ -193,6 +195,18 @@ std::string count(const FileCount& files, const char* what) {
   return count(files.files) + ' ' + what + " (" + size_text(files.bytes) + ')';
 }
 
+/// What jobs have left beside their results. Where there is no Slurm, age alone counts.
+SubmissionsCollected collect_submissions(const std::string& place, std::int64_t age, bool dry_run) {
+  const auto is_active = [](const Submission& submission) {
+    try {
+      return slurm::tasks(submission.jobs()).active() > 0;
+    } catch (const Error&) {
+      return false;
+    }
+  };
+  return Submissions(place).collect(age, dry_run, is_active);
+}
+
 int collect_upstream_garbage(const UpstreamArguments& arguments, bool dry_run) {
   constexpr std::int64_t day = 86400;
   const auto age = parse_age(arguments.age);
@@ -213,6 +227,15 @@ int collect_upstream_garbage(const UpstreamArguments& arguments, bool dry_run) {
               count(done.leftovers, "drafts and damaged files").c_str());
   std::printf("%s and %s are left\n", count(done.entries_left, "entries").c_str(),
               count(done.blobs_left, "artifacts").c_str());
+  const SubmissionsCollected runs = collect_submissions(arguments.place, *age, dry_run);
+  if (runs.removed + runs.left > 0) {
+    std::printf("records of submissions: %s as old, %s left\n", count(runs.removed).c_str(),
+                count(runs.left).c_str());
+  }
+  if (done.failed.files == 0 && !runs.why.empty()) {
+    throw Error(ExitCode::store, "records of submissions could not be removed, first " + runs.why,
+                "collect as their owner");
+  }
   if (done.failed.files == 0) return 0;
   throw Error(
       ExitCode::store,

@@ -137,6 +137,10 @@ void tell_upstream(const Store& store);
 
 /// A flag that becomes true at the first Ctrl-C or SIGTERM after this call; the second one ends the process.
 const std::atomic<bool>& cancel_on_signals();
+/// SIGUSR1 does the same from now on: so a scheduler says that the time of a job is nearly over.
+const std::atomic<bool>& cancel_before_time_limit();
+/// Whether it has said so.
+bool is_out_of_time();
 
 /// Prints rows as a table with aligned columns.
 void print_table(const std::vector<std::vector<std::string>>& rows);

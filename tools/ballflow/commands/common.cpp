@@ -85,12 +85,17 @@ std::uint64_t Common::cache_limit(Store& store) const {
 
 namespace {
 
-std::atomic<bool> cancel_requested{false};
+std::atomic<bool> cancel_requested{false}, out_of_time{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 void on_interrupt(int signal_number) {
   cancel_requested.store(true);
   std::signal(signal_number, SIG_DFL);  // the second Ctrl-C ends the process at once; the store does not mind
+}
+
+void on_time_limit(int) {
+  out_of_time.store(true);
+  cancel_requested.store(true);
 }
 
 }  // namespace
@@ -100,6 +105,13 @@ const std::atomic<bool>& cancel_on_signals() {
   std::signal(SIGTERM, on_interrupt);
   return cancel_requested;
 }
+
+const std::atomic<bool>& cancel_before_time_limit() {
+  std::signal(SIGUSR1, on_time_limit);
+  return cancel_on_signals();
+}
+
+bool is_out_of_time() { return out_of_time.load(); }
 
 bool is_run(Store& store, const std::string& name) {
   if (name == "latest" || name == "previous") return true;

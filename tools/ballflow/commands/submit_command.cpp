@@ -113,21 +113,28 @@ int status(const RunOfStore& arguments) {
   const std::string folder = submissions.folder(run.run);
   std::map<std::string, std::size_t> good, bad;
   std::vector<std::pair<std::string, NodeState>> failures;
-  std::size_t units = 0, ended = 0, killed = 0;
+  std::size_t units = 0, ended = 0, killed = 0, begun = 0, begun_done = 0, begun_nodes = 0;
   std::vector<std::string> silent;
   for (std::size_t a = 0; a < run.arrays.size(); ++a) {
     units += run.arrays[a].units;
     for (std::size_t u = 0; u < run.arrays[a].units; ++u) {
-      const auto state = read_status(folder, unit_name(a, u));
-      if (!state) {
+      auto state = read_status(folder, unit_name(a, u));
+      const bool at_its_end = state.has_value();
+      if (!at_its_end) {
         if (!log_tail(folder, unit_name(a, u), 1).empty()) silent.push_back(unit_name(a, u));
-        continue;
+        state = read_progress(folder, unit_name(a, u));
+        if (!state) continue;
+        ++begun;
+        begun_nodes += state->of;
+      } else {
+        ++ended;
       }
-      ++ended;
       for (const NodeState& node : state->nodes) {
         const bool done = node.status == "run" || node.status == "hit";
         ++(done ? good : bad)[node.type];
-        if (node.status == "failed") failures.emplace_back(unit_name(a, u), node);
+        if (done && !at_its_end) ++begun_done;
+        // What is printed of a failure, its unit writes at the end.
+        if (node.status == "failed" && at_its_end) failures.emplace_back(unit_name(a, u), node);
       }
     }
   }
@@ -154,6 +161,12 @@ int status(const RunOfStore& arguments) {
     going = "; " + std::string(error.what());
   }
   std::printf("\n%zu of %zu units ended%s\n", ended, units, going.c_str());
+  if (begun > 0) {
+    std::printf("%s of %s nodes are done in %zu %s not ended\n",
+                grouped(static_cast<std::int64_t>(begun_done)).c_str(),
+                grouped(static_cast<std::int64_t>(begun_nodes)).c_str(), begun,
+                begun == 1 ? "unit that has" : "units that have");
+  }
   if (killed > 0) {
     std::printf("%zu units ended without a word: killed, cancelled or lost; submit the same again\n", killed);
     for (std::size_t i = 0; i < std::min<std::size_t>(silent.size(), 5); ++i)

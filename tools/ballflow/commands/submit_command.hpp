@@ -2,6 +2,8 @@
 #pragma once
 
 #include <functional>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -74,6 +76,7 @@ class Submitter {
   std::map<std::string, Growth> grown_;
   std::vector<bool> given_up_;  // by node: it fails, or needs one that does
   std::vector<NodeState> failed_;
+  std::optional<std::map<std::string, double>> usual_seconds_;  // by node type; once they are needed
   std::vector<bool> alone_;  // by node: the process that ran its unit ended, and nobody knows by which node
   bool gets_more_ = false;
   std::size_t done_ = 0, to_run_ = 0;

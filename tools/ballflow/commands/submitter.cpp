@@ -91,6 +91,10 @@ void Submitter::pack_round(const slurm::Limits& limits) {
   options.unit_seconds = arguments_.unit_seconds;
   options.most_units = static_cast<std::size_t>(std::max<std::uint64_t>(limits.array_size, 1));
   options.alone = alone_;
+  for (std::size_t i = 0; i < plans_.size() && !usual_seconds_; ++i) {
+    if (has_to_run(plans_[i]) && !plans_[i].seconds) usual_seconds_ = submissions_.usual_seconds();
+  }
+  if (usual_seconds_) options.usual_seconds = *usual_seconds_;
   if (!grown_.empty()) {
     options.memory_factor.assign(dag_.nodes.size(), 1);
     options.time_factor = options.memory_factor;
@@ -155,7 +159,9 @@ void Submitter::pack_round(const slurm::Limits& limits) {
   std::printf("\n%s nodes are done, %s to run in %zu arrays: ~%.2g hours predicted%s\n",
               grouped(static_cast<std::int64_t>(done_)).c_str(),
               grouped(static_cast<std::int64_t>(to_run_)).c_str(), arrays_.size(), total / 3600,
-              unknown ? ", with a second for each node that never ran" : "");
+              unknown ? ", of nodes that never ran here by what their like took in "
+                        "earlier submissions, else a second"
+                      : "");
 }
 
 /// What was given to the graph has to be where the jobs look.
@@ -261,6 +267,7 @@ bool Submitter::watch_round() {
 
 void Submitter::learn_from(const Submission& submission, bool give_up_failed) {
   const std::string folder = submissions_.folder(submission.run);
+  const std::map<std::string, std::string> ends = slurm::ends(submission.jobs());
   grown_ = submission.grown;
   gets_more_ = false;
   for (std::size_t a = 0; a < submission.arrays.size(); ++a) {
@@ -282,9 +289,14 @@ void Submitter::learn_from(const Submission& submission, bool give_up_failed) {
       if (ended) continue;
       const std::string log = log_tail(folder, unit, 20);
       const auto says = [&log](const char* words) { return log.find(words) != std::string::npos; };
-      const bool memory =
-          says("exceeded memory limit") || says("oom-kill") || says("oom_kill") || says("Out Of Memory");
-      const bool time = says("DUE TO TIME LIMIT") || (status && status->seconds > limit - 90);
+      const auto end = ends.find(submission.arrays[a].job + '_' + std::to_string(u));
+      const auto is = [&](const char* state) { return end != ends.end() && end->second == state; };
+      // Where Slurm kills by its own polling (OverMemoryKill) the state is FAILED, and the log alone says
+      // why.
+      const bool memory = is("OUT_OF_MEMORY") || says("exceeded memory limit") || says("oom-kill") ||
+                          says("oom_kill") || says("Out Of Memory");
+      const bool time = is("TIMEOUT") || says("DUE TO TIME LIMIT") ||
+                        (status && (status->out_of_time || status->seconds > limit - 90));
       // A node that ends the process takes its unit with it: next time each piece runs alone.
       const bool died = !memory && !time && !status && !log.empty() && !says("CANCELLED AT") &&
                         !says("ballflow: error");  // it has told what was wrong itself

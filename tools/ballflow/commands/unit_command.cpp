@@ -11,6 +11,7 @@
 
 #include "ballflow/gc.hpp"
 #include "cluster/submission.hpp"
+#include "cluster/unit_progress.hpp"
 #include "commands/commands.hpp"
 #include "commands/failure.hpp"
 #include "terminal/terminal.hpp"
@@ -50,6 +51,10 @@ std::string job_name() {
   return array.empty() ? variable("SLURM_JOB_ID") : array + '_' + variable("SLURM_ARRAY_TASK_ID");
 }
 
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
 class UnitRun {
  public:
   UnitRun(const Common& common, const std::string& file, double patience)
@@ -75,25 +80,34 @@ class UnitRun {
     options.threads = unit_.threads;
     options.seed = unit_.seed;
     options.keep_going = true;
-    options.cancel = &cancel_on_signals();
+    options.cancel = &cancel_before_time_limit();
     for (std::size_t i = given_; i < dag_.nodes.size(); ++i) options.until.insert(i);
     UnitStatus status;
     status.host = host_name();
     status.job = job_name();
+    status.of = unit_.nodes.size();
     for (const auto& [path, reason] : missing_) {
       const DagNode& node = unit_.nodes[path];
-      status.nodes.push_back({node.path, node.kind.type(), "missing", std::nullopt, reason, {}});
+      status.nodes.push_back({node.path, node.kind.type(), "missing", std::nullopt, reason, {}, 0});
       std::fprintf(stderr, "%s is not run: %s\n", node.path.c_str(), reason.c_str());
     }
     if (!missing_.empty()) status.exit_code = input_missing;
     if (!options.until.empty()) {
+      const UnitStatus begun = status;
       const KeepWithin collect_at_the_end(store_, common_.cache_limit(*store_));
       const auto display = progress_display(dag_, false);
-      Runner runner(dag_, *registry_, store_, options, *display);
+      UnitProgress progress(*display, dag_, given_, [&](const std::vector<NodeState>& ended) {
+        UnitStatus so_far = begun;
+        so_far.nodes.insert(so_far.nodes.end(), ended.begin(), ended.end());
+        so_far.seconds = seconds_since(start);
+        write_progress(folder_, unit_.name, so_far);
+      });
+      Runner runner(dag_, *registry_, store_, options, progress);
       tell(runner.run(), status);
     }
     tell_upstream(*store_);
-    status.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    status.seconds = seconds_since(start);
+    status.out_of_time = is_out_of_time();
     write_status(folder_, unit_.name, status);
     return status.exit_code;
   }
@@ -122,6 +136,8 @@ class UnitRun {
         for (const auto& entry : fs::directory_iterator(folder_ + "/status", ignored)) (void)entry;
         status = read_status(folder_, outside.unit);
       }
+      // One that was killed has said how far it got.
+      if (!status) status = read_progress(folder_, outside.unit);
       for (const NodeState& node : status ? status->nodes : std::vector<NodeState>()) {
         if (node.key && (node.status == "run" || node.status == "hit")) found->second[node.path] = *node.key;
       }
@@ -186,8 +202,10 @@ class UnitRun {
                       std::string(to_string(node.status)),
                       std::nullopt,
                       node.cause,
-                      {}};
+                      {},
+                      0};
       if (node.status == NodeStatus::run || node.status == NodeStatus::hit) state.key = key_of(node.manifest);
+      if (node.status == NodeStatus::run) state.seconds = node.cost_seconds;
       if (node.status == NodeStatus::failed) {
         state.text = failure_text({common_, *registry_, dag_, *store_, unit_.seed, {}}, result, i);
         std::fprintf(stderr, "%s", state.text.c_str());
