@@ -1,6 +1,7 @@
 // Nodes that do next to nothing, for tens of thousands of them on a cluster. $BALLFLOW_TOY_DIE ends the
 // process of the step with that value by exit code 37, as a node library with a bug would. Steps append what
-// time it is on their node to a file of its name in $BALLFLOW_TOY_CLOCK.
+// time it is on their node to a file of its name in $BALLFLOW_TOY_CLOCK. A step that takes memory keeps it
+// for $BALLFLOW_TOY_HOLD seconds, so that somebody can see it.
 #include <unistd.h>
 
 #include <chrono>
@@ -26,6 +27,8 @@ struct ballflow::TypeOf<Count> {
   static void declare(TypeDecl<Count>& d) {
     d.id("toy.Count", 1).doc("A number.");
     d.scalar("value", &Count::value).doc("the number");
+    d.summary("value", "the number");
+    d.summarize([](const Count& count) { return ballflow::Summary{{"value", count.value}}; });
   }
 };
 
@@ -55,13 +58,14 @@ void write_time() {
 struct Step {
   ballflow::In<Count> from;
   ballflow::Out<Count> count;
-  double add = 0, seconds = 0;
+  double add = 0, seconds = 0, megabytes = 0;
   static void declare(ballflow::NodeDecl<Step>& d) {
     d.id("toy.Step", 1).summary("Adds to a number, and computes in vain for a while.");
     d.input("from", &Step::from).doc("a number");
     d.output("count", &Step::count).doc("the sum");
     d.param("add", &Step::add).doc("what is added");
     d.param("seconds", &Step::seconds).unit("s").at_least(0).doc("processor time that it takes");
+    d.param("megabytes", &Step::megabytes).at_least(0).doc("memory that it takes and does not tell of");
   }
   void run(ballflow::RunContext&) {
     const double sum = from->value + add;
@@ -71,6 +75,10 @@ struct Step {
       ::_exit(37);
     }
     write_time();
+    const std::vector<char> memory(static_cast<std::size_t>(megabytes * 1e6), 1);
+    const char* const hold = std::getenv("BALLFLOW_TOY_HOLD");
+    if (!memory.empty() && hold != nullptr)
+      std::this_thread::sleep_for(std::chrono::duration<double>(std::strtod(hold, nullptr)));
     const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
     while (std::chrono::steady_clock::now() < until) {
     }
