@@ -13,6 +13,7 @@
 #include "mesh/exact_mesh.hpp"
 #include "mesh/grid_mesh.hpp"
 #include "mesh/simplified_mesh.hpp"
+#include "mesh/skin_mesh.hpp"
 #include "power/alpha_shape.hpp"
 #include "power/power_diagram.hpp"
 #include "power/union_vertices.hpp"
@@ -69,7 +70,9 @@ class Mesher {
       throw InputError("the union of the balls is a single point, which has no surface",
                        "give the ball a radius, or leave it out");
     bool crossing = true;  // triangles of a grid lie in different tetrahedra
-    if (options_.method != BallMeshMethod::exact || !exact()) {
+    if (options_.method == BallMeshMethod::skin) {
+      skin();
+    } else if (options_.method != BallMeshMethod::exact || !exact()) {
       grid();
       crossing = false;
     }
@@ -179,6 +182,28 @@ class Mesher {
     if (best && !what_differs(report).empty()) result_ = *std::move(best);
     if (report.error_back < 0) measure_back(given);
   }
+
+  void skin() {
+    MeshReport& report = result_.report;
+    PartMonitor counting(monitor_, 0, 0.1), meshing(monitor_, 0.1, 0.9);
+    const Looked given = look_at(0, counting);
+    report.euler_given = given.complex.euler_characteristic();
+    report.growth = std::ldexp(extent_, -30);
+    const Balls generic = grown(balls_, report.growth);
+    std::vector<double> radii;
+    radii.reserve(generic.size());
+    for (const double r : generic.radii) radii.push_back(r / std::sqrt(options_.shrink));
+    report.set_union(
+        alpha_shape(power_diagram({generic.centers, std::move(radii), {}, {}}, {}, counting), counting)
+            .betti);
+    report.made_by = static_cast<std::uint8_t>(MeshedBy::skin);
+    result_.mesh =
+        skin_mesh(generic, options_.shrink, static_cast<std::size_t>(options_.most_faces), meshing);
+    describe();
+    // Triangles are as large as cells of the complex: between the places it was a tenth more.
+    report.error = 1.2 * mesh_gap(balls_, result_.mesh, monitor_) + report.growth;
+    measure_back(given);
+  }
   void simplify() {
     MeshReport& report = result_.report;
     report.faces_before = report.faces;
@@ -187,7 +212,8 @@ class Mesher {
     PartMonitor collapsing(monitor_, 0.6, 0.9);
     result_.mesh = simplified_mesh(result_.mesh, wanted, collapsing);
     describe();
-    const Looked given = look_at(report.growth, monitor_);
+    const bool skin = options_.method == BallMeshMethod::skin;
+    const Looked given = look_at(skin ? 0 : report.growth, monitor_);
     report.error = 1.05 * mesh_gap(balls_, result_.mesh, monitor_);
     measure_back(given);
   }
@@ -240,6 +266,9 @@ BallMesh ball_mesh(const Balls& balls, const BallMeshOptions& options, Monitor& 
     throw InputError("the error is not above 0 and at most 100 %", "0.2 is a good start");
   if (!(options.keep_faces > 0 && options.keep_faces <= 100))
     throw InputError("the share of triangles to keep is not above 0 and at most 100 %", "100 keeps all");
+  if (!(options.shrink >= 0.05 && options.shrink <= 0.95))
+    throw InputError("shrink is not from 0.05 to 0.95",
+                     "0.5 is a good start; method exact is what 1 would be");
   return Mesher(balls, options, monitor).run();
 }
 

@@ -7,6 +7,7 @@
 // vertices lie on the boundary of the union.
 // grid: tetrahedra on the cells of a grid, of which the corners are inside or outside. The mesh is a closed
 // manifold whatever is inside; it has the topology of the union where the cells are small enough.
+// skin: not the boundary itself but the skin surface around the balls (Edelsbrunner 1999), for comparison.
 #pragma once
 
 #include <cstdint>
@@ -22,6 +23,7 @@ enum class BallMeshMethod {
   exact,  // from the power diagram; balls that are not in general position grow a little; grid where that
           // fails
   grid,
+  skin,  // smooth where spheres meet, and as far from them there as `shrink` asks for
 };
 
 struct BallMeshOptions {
@@ -31,6 +33,7 @@ struct BallMeshOptions {
   bool self_intersections = true;        // count them
   double keep_faces = 100;               // % of the triangles that simplification keeps; 100: all
   bool refine_notches = false;           // grid: until their bottoms are within the error, too
+  double shrink = 0.5;                   // skin: towards 1 the union, the less the more it fills notches
 };
 
 struct BallMesh {
@@ -61,6 +64,11 @@ struct BallMesh {
 /// - Patches of thin parts may cross each other: report.self_intersections. Triangles of a grid lie in
 /// different
 ///   tetrahedra and do not cross.
+/// - A skin surface contains the balls and touches them. Its topology is that of balls larger by
+/// 1 / sqrt(shrink):
+///   report.euler_meshed. `error` is not what it is made to; report.error and error_back say how far it is
+///   from the union. Every radius grows by its own amount of at most 2^-30 of the longest edge first, so that
+///   nothing is a tie.
 /// - Throws InputError for balls that break their invariants, a single point, an error that is not positive,
 /// and
 ///   when there would be more faces than asked for.

@@ -32,6 +32,7 @@ struct BallMesh {
     d.avoid_when("the surface that the balls stand for is at hand and good: the union is only near it.");
     d.cites("kornberger2010", "2.8")
         .cites("lindstrom1998", "keep_faces")
+        .cites("edelsbrunner1999", "skin")
         .cites("edelsbrunner1995", "the union of balls and its dual shape");
     d.library("CGAL", geometry::cgal_version());
     d.memory(std::uint64_t{64} << 20, 256);
@@ -46,7 +47,11 @@ struct BallMesh {
               {BallMeshMethod::grid, "grid",
                "tetrahedra on the cells of a grid, refined until distance and topology are right or two "
                "rounds bring "
-               "nothing: ten times the triangles, none of which cross"}})
+               "nothing: ten times the triangles, none of which cross"},
+              {BallMeshMethod::skin, "skin",
+               "the skin surface around the balls (CGAL), smooth where spheres meet, for comparison: it "
+               "contains the balls, its "
+               "topology is that of balls larger by 1 / sqrt(shrink), and `error` does not steer it"}})
         .doc("how the mesh is made");
     d.param("error", &BallMesh::options, &BallMeshOptions::error)
         .unit("% of the longest bounding-box edge")
@@ -73,6 +78,11 @@ struct BallMesh {
             "method grid: refine until the bottoms of notches are within the error, too, which takes about "
             "twice the "
             "triangles; otherwise the report says how far they are");
+    d.param("shrink", &BallMesh::options, &BallMeshOptions::shrink)
+        .unit("1")
+        .at_least(0.05)
+        .at_most(0.95)
+        .doc("method skin: towards 1 the boundary of the union, the less the more notches and gaps it fills");
   }
   void run(RunContext& context) {
     ContextMonitor monitor(context);

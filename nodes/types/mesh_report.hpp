@@ -14,6 +14,7 @@ enum class MeshedBy : std::uint8_t {
   exact_grown =
       1,     // from that of balls that grew or shrank a little, because rounding would decide otherwise
   grid = 2,  // from cells of a grid
+  skin = 3,  // the skin surface, which is not the boundary
 };
 std::string_view in_words(MeshedBy how);
 
@@ -29,9 +30,9 @@ struct MeshReport {
 
   double error_asked = 0;  // model units
   double error = 0;        // the largest distance of a triangle from the boundary of the union that was found
-  // Of a grid and a simplified mesh: the largest distance from the mesh that a place of the boundary was
-  // found to have, in the bottom of notches; -1: not measured, because method exact keeps both ways within
-  // error_asked
+  // Of a grid, a skin surface and a simplified mesh: the largest distance from the mesh that a place of the
+  // boundary was found to have, in the bottom of notches; -1: not measured, because method exact keeps both
+  // ways within error_asked
   double error_back = -1;
   std::int64_t faces_before = 0;  // simplification; 0: there was none
   double growth = 0;              // the most that a radius grew, or shrank where it is negative, model units

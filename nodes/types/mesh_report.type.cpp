@@ -10,7 +10,10 @@ void TypeOf<geometry::MeshReport>::declare(TypeDecl<geometry::MeshReport>& d) {
   using T = geometry::MeshReport;
   d.id("MeshReport", 2).doc("How a mesh of the boundary of a union of balls was made, and what holds of it.");
   d.scalar("made_by", &T::made_by)
-      .doc("0 from the power diagram, 1 from that of balls whose radii were changed a little, 2 a grid");
+      .doc(
+          "0 from the power diagram, 1 from that of balls whose radii were changed a little, 2 a grid, 3 a "
+          "skin "
+          "surface");
   d.scalar("vertices", &T::vertices).doc("vertices of the mesh");
   d.scalar("faces", &T::faces).doc("its triangles");
   d.scalar("components", &T::components).doc("its connected components");
@@ -25,7 +28,8 @@ void TypeOf<geometry::MeshReport>::declare(TypeDecl<geometry::MeshReport>& d) {
   d.scalar("error", &T::error).doc("largest distance of the mesh from the boundary, model units");
   d.scalar("error_back", &T::error_back)
       .doc(
-          "of a grid or simplified mesh: largest distance of the boundary from the mesh, model units; -1: "
+          "of a grid, skin surface or simplified mesh: largest distance of the boundary from the mesh, model "
+          "units; -1: "
           "not measured");
   d.scalar("faces_before", &T::faces_before).doc("triangles before simplification; 0: there was none");
   d.scalar("growth", &T::growth).doc("most that a radius grew; below 0: shrank; model units");
@@ -33,7 +37,8 @@ void TypeOf<geometry::MeshReport>::declare(TypeDecl<geometry::MeshReport>& d) {
   d.scalar("rounds", &T::rounds).doc("how often arcs were divided again, or the grid was refined");
   d.scalar("self_intersections", &T::self_intersections)
       .doc("pairs of triangles that cross; -1: not counted");
-  d.summary("made_by", "exact, exact of changed radii, or grid").summary("faces", "number of triangles");
+  d.summary("made_by", "exact, exact of changed radii, grid, or skin surface")
+      .summary("faces", "number of triangles");
   d.summary("components", "connected components of the mesh");
   d.summary("euler", "Euler characteristic of the mesh: twice that of the union");
   d.summary("euler_given", "Euler characteristic of the union of the balls");

@@ -162,9 +162,11 @@ std::string minkowski(const Json& s) {
 }
 
 std::string mesh_report(const Json& s) {
-  std::string text = counted(s, "faces", "face") + ", " + s.at("made_by").get<std::string>() + ", error " +
-                     rounded(s, "error") + " (asked for " + rounded(s, "error_asked") +
-                     "), Euler characteristic " + number(s, "euler");
+  const bool skin = s.at("made_by") == "skin surface";
+  std::string text = counted(s, "faces", "face") + ", " + s.at("made_by").get<std::string>() +
+                     (skin ? ", off the union by " : ", error ") + rounded(s, "error") +
+                     (skin ? "" : " (asked for " + rounded(s, "error_asked") + ")") +
+                     ", Euler characteristic " + number(s, "euler");
   if (s.at("self_intersections").is_number() && s.at("self_intersections") != 0)
     text += ", " + counted(s, "self_intersections", "self-intersection");
   if (s.at("differs").is_string()) text += ", NOT as asked: " + s.at("differs").get<std::string>();

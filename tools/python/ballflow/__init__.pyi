@@ -854,7 +854,7 @@ class MeshReport(Artifact):
     Arrays (attributes, in this order arguments of the constructor):
 
         made_by: one number u8: 0 from the power diagram, 1 from that of balls whose radii were changed a
-          little, 2 a grid
+          little, 2 a grid, 3 a skin surface
         vertices: one number i64: vertices of the mesh
         faces: one number i64: its triangles
         components: one number i64: its connected components
@@ -867,8 +867,8 @@ class MeshReport(Artifact):
         oriented: one number u8: 1: neighbours run through their edge in opposite directions
         error_asked: one number f64: model units
         error: one number f64: largest distance of the mesh from the boundary, model units
-        error_back: one number f64: of a grid or simplified mesh: largest distance of the boundary from the
-          mesh, model units; -1: not measured
+        error_back: one number f64: of a grid, skin surface or simplified mesh: largest distance of the
+          boundary from the mesh, model units; -1: not measured
         faces_before: one number i64: triangles before simplification; 0: there was none
         growth: one number f64: most that a radius grew; below 0: shrank; model units
         cell: one number f64: edge of a cell of the grid, model units; 0: no grid
@@ -877,7 +877,7 @@ class MeshReport(Artifact):
 
     Summary:
 
-        made_by: exact, exact of changed radii, or grid
+        made_by: exact, exact of changed radii, grid, or skin surface
         faces: number of triangles
         components: connected components of the mesh
         euler: Euler characteristic of the mesh: twice that of the union

@@ -339,12 +339,13 @@ class BallMeshOutputs(NamedTuple):
 def ball_mesh(
     balls: Union[Balls, ArtifactLike],
     *,
-    method: Literal['exact', 'grid'] = 'exact',
+    method: Literal['exact', 'grid', 'skin'] = 'exact',
     error: float = 0.2,
     keep_faces: float = 100.0,
     most_faces: int = 20000000,
     self_intersections: bool = True,
     refine_notches: bool = False,
+    shrink: float = 0.5,
     cache: Cache = False,
     threads: int = 0,
     memory: Union[str, int, None] = None,
@@ -375,6 +376,9 @@ def ball_mesh(
               grid
             grid: tetrahedra on the cells of a grid, refined until distance and topology are right or two
               rounds bring nothing: ten times the triangles, none of which cross
+            skin: the skin surface around the balls (CGAL), smooth where spheres meet, for comparison: it
+              contains the balls, its topology is that of balls larger by 1 / sqrt(shrink), and `error` does
+              not steer it
         error (number, default 0.2, % of the longest bounding-box edge, >= 0.0001, <= 100.0): how far the
           mesh may be from the boundary of the union
         keep_faces (number, default 100.0, % of the triangles, > 0.0, <= 100.0): how many are left by
@@ -385,9 +389,11 @@ def ball_mesh(
           long as the mesh
         refine_notches (boolean, default false): method grid: refine until the bottoms of notches are within
           the error, too, which takes about twice the triangles; otherwise the report says how far they are
+        shrink (number, default 0.5, 1, >= 0.05, <= 0.95): method skin: towards 1 the boundary of the union,
+          the less the more notches and gaps it fills
 
-    Sources: kornberger2010, 2.8; lindstrom1998, keep_faces; edelsbrunner1995, the union of balls and its
-      dual shape
+    Sources: kornberger2010, 2.8; lindstrom1998, keep_faces; edelsbrunner1999, skin; edelsbrunner1995, the
+      union of balls and its dual shape
     """
     ...
 
