@@ -174,10 +174,11 @@ function(ballflow_tool_floor name folder)
 endfunction()
 
 # ballflow_test(name LIBRARIES ...): one executable of every *.cpp in the calling folder; each TEST is a
-# ctest test of its own. What is tested is optimised as always; the tests themselves are compiled in less time, and
-# where they compute much, beside the algorithms, with -O1.
+# ctest test of its own, but those of the suite TOGETHER, which are one: there are hundreds, and each takes less time
+# than the start of a process. What is tested is optimised as always; the tests themselves are compiled in less time,
+# and where they compute much, beside the algorithms, with -O1.
 function(ballflow_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "LIBRARIES;LABELS;FIXTURES" ${ARGN})
+  cmake_parse_arguments(ARG "" "TIMEOUT;TOGETHER" "LIBRARIES;LABELS;FIXTURES" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   if(NOT sources)
     return()
@@ -207,7 +208,13 @@ function(ballflow_test name)
   if(ARG_FIXTURES)
     list(APPEND properties FIXTURES_REQUIRED "${ARG_FIXTURES}")
   endif()
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
+  set(filter)
+  if(ARG_TOGETHER)
+    set(filter TEST_FILTER "-${ARG_TOGETHER}.*")
+    add_test(NAME "${name}: ${ARG_TOGETHER}" COMMAND ${name} --gtest_filter=${ARG_TOGETHER}.* --gtest_brief=1)
+    set_tests_properties("${name}: ${ARG_TOGETHER}" PROPERTIES ${properties})
+  endif()
+  gtest_discover_tests(${name} ${filter} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
     TEST_PREFIX "${name}: " PROPERTIES ${properties})
 endfunction()
 

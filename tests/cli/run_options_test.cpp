@@ -197,37 +197,6 @@ TEST_F(RunOptionsTest, the_determinism_check_passes_on_the_whole_pipeline) {
   }
 }
 
-TEST_F(RunOptionsTest, digests_are_the_same_on_a_processor_without_fma_and_avx2) {
-  std::vector<std::vector<std::string>> runs = {
-      {test::source_file("graphs/medial_axis.json"), "--set", "strategy=hybrid", "--set",
-       "sampling=vertices"},
-      {test::source_file("graphs/reconstruct.json"), "--set", "robustness=denoise"}};
-  for (const auto& entry : fs::directory_iterator(test::source_file("graphs"))) {
-    if (entry.path().extension() == ".json") runs.push_back({entry.path().string()});
-  }
-  for (std::vector<std::string>& arguments : runs) {
-    SCOPED_TRACE(arguments[0]);
-    const json graph = json::parse(test::read_file(arguments[0]), nullptr, true, true);
-    // What takes an artifact has no default; shape_complete has the nodes of those that there are.
-    if (graph.dump().find("\"kind\":\"artifact\"") != std::string::npos) continue;
-    if (graph.contains("params") && graph.at("params").contains("input"))
-      arguments.insert(arguments.end(), {"--set", "input=shape:torus?n=2000"});
-    arguments.insert(arguments.begin(), "run");
-    arguments.insert(arguments.end(), {"--report", folder.file("report.json"), "--cache"});
-    // A cache for each processor: what graphs have in common is computed once on each.
-    const auto run_with = [&](const std::string& cache, std::map<std::string, std::string> environment) {
-      std::vector<std::string> all = arguments;
-      all.push_back(folder.file(cache));
-      return ballflow(std::move(all), std::move(environment)).exit_code;
-    };
-    ASSERT_EQ(run_with("with", {}), 0);
-    const json here = report();
-    ASSERT_EQ(run_with("without", {{"GLIBC_TUNABLES", "glibc.cpu.hwcaps=-FMA,-AVX2"}}), 0);
-    for (const auto& [path, node] : here.at("nodes").items())
-      EXPECT_EQ(node.at("outputs"), report().at("nodes").at(path).at("outputs")) << path;
-  }
-}
-
 struct NoisyTest : RunOptionsTest {
   ProcessResult run_noisy(int by, std::vector<std::string> options = {}) {
     test::write_file(folder.file("noisy.json"), R"({"doc": "A time and a later one.", "nodes": {

@@ -8,7 +8,7 @@
 #include "ballflow/registry.hpp"
 #include "ballflow/run.hpp"
 #include "ballflow/schema.hpp"
-#include "built_registry.hpp"
+#include "quick_graphs.hpp"
 #include "test_data.hpp"
 
 namespace ballflow {
@@ -126,14 +126,20 @@ TEST_P(EveryNode, cites_sources_that_the_bibliography_has) {
 }
 
 TEST_P(EveryNode, is_used_by_a_graph) {
-  const std::regex use("\"type\"\\s*:\\s*\"" + GetParam() + "\"");
-  bool used = false;
-  for (const std::string& file : graph_files()) used = used || std::regex_search(test::read_file(file), use);
-  EXPECT_TRUE(used);
+  static const std::set<std::string> used = [] {
+    const std::regex use("\"type\"\\s*:\\s*\"([^\"]*)\"");
+    std::set<std::string> types;
+    for (const std::string& file : graph_files()) {
+      const std::string text = test::read_file(file);
+      for (std::sregex_iterator it(text.begin(), text.end(), use), end; it != end; ++it) types.insert((*it)[1]);
+    }
+    return types;
+  }();
+  EXPECT_TRUE(used.contains(GetParam()));
 }
 
 TEST_P(EveryNode, has_an_example_that_the_schemas_and_the_tests_of_graphs_know) {
-  const auto examples = find_examples(test::source_file("graphs"), registry());
+  static const auto examples = find_examples(test::source_file("graphs"), registry());
   ASSERT_EQ(examples.count(GetParam()), 1u);
   const NodeExample& example = examples.at(GetParam());
   EXPECT_EQ(example.entry.front().at("type"), GetParam());
@@ -184,18 +190,18 @@ INSTANTIATE_TEST_SUITE_P(Nodes, EveryNode, testing::ValuesIn(node_ids()),
 /// What the pages of the nodes say can be typed runs, with a small model in place of the usual one.
 TEST(Examples, run) {
   std::map<std::string, std::vector<Setting>> commands;
-  const test::TempFolder results;  // what examples have in common is computed once
   for (const auto& [id, example] : find_examples(test::source_file("graphs"), registry())) {
     std::string name = example.graph;
     for (const Setting& set : example.settings) name += " " + set.name + "=" + set.value;
-    std::vector<Setting> settings = example.settings;
     const std::string file = test::source_file("graphs/" + example.graph);
-    if (load_graph(file, registry()).params.contains("input"))
-      settings.push_back({"input", "shape:torus?n=600"});
+    std::vector<Setting> settings = quick_settings(std::filesystem::path(example.graph).stem());
+    settings.insert(settings.end(), example.settings.begin(), example.settings.end());
     if (!commands.emplace(name, settings).second) continue;
     const Dag dag = load_graph(file, registry(), settings);
     Silent events;
-    Runner runner(dag, registry(), Store::open({results.path(), false, {}}), {}, events);
+    RunOptions options;
+    options.threads = 1;
+    Runner runner(dag, registry(), results_with(1), options, events);
     EXPECT_EQ(runner.run().status, ExitCode::ok) << name;
   }
   EXPECT_GE(commands.size(), 3u);
