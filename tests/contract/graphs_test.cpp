@@ -7,8 +7,8 @@
 #include <filesystem>
 
 #include "ballflow/run.hpp"
-#include "quick_graphs.hpp"
 #include "process.hpp"
+#include "quick_graphs.hpp"
 #include "test_data.hpp"
 
 namespace ballflow {
@@ -28,13 +28,12 @@ RunResult run_with(const Dag& dag, unsigned threads) {
   return runner.run();
 }
 
-/// The test that calls, once more in a process of its own: functions of the C library choose their instructions
-/// by the processor, and glibc lets a process leave some out.
+/// The test that calls, once more in a process of its own: functions of the C library choose their
+/// instructions by the processor, and glibc lets a process leave some out.
 void repeat_on_other_processor() {
   const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
   const test::ProcessResult result = test::run_process(
-      {"/proc/self/exe",
-       std::string("--gtest_filter=") + test.test_suite_name() + "." + test.name()},
+      {"/proc/self/exe", std::string("--gtest_filter=") + test.test_suite_name() + "." + test.name()},
       {{"GLIBC_TUNABLES", "glibc.cpu.hwcaps=-FMA,-AVX2"}, {on_other_processor, "1"}});
   ASSERT_EQ(result.exit_code, 0) << result.out << result.err;
 }

@@ -131,7 +131,8 @@ TEST_P(EveryNode, is_used_by_a_graph) {
     std::set<std::string> types;
     for (const std::string& file : graph_files()) {
       const std::string text = test::read_file(file);
-      for (std::sregex_iterator it(text.begin(), text.end(), use), end; it != end; ++it) types.insert((*it)[1]);
+      for (std::sregex_iterator it(text.begin(), text.end(), use), end; it != end; ++it)
+        types.insert((*it)[1]);
     }
     return types;
   }();

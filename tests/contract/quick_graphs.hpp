@@ -1,4 +1,5 @@
-// How the graphs in graphs/ are run where every one of them is: on small models, with results that tests share.
+// How the graphs in graphs/ are run where every one of them is: on small models, with results that tests
+// share.
 #pragma once
 
 #include <algorithm>
