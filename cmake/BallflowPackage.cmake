@@ -30,14 +30,20 @@ module, and what is needed to build node libraries and programs of one's
 own.")
 # dpkg-shlibdeps looks at every ELF file of the package, so at node libraries, too, which the program opens by itself.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-# Embree is opened when a picture is drawn; nothing in the files says so.
-file(GLOB embree /usr/lib/*/libembree3.so.3)
-execute_process(COMMAND dpkg-query --search ${embree} OUTPUT_VARIABLE owner ERROR_QUIET)
-if(owner MATCHES "^([^:, ]+)")
-  set(CPACK_DEBIAN_PACKAGE_DEPENDS ${CMAKE_MATCH_1})
-else()
-  set(CPACK_DEBIAN_PACKAGE_DEPENDS libembree3-3)
-endif()
+# Embree is opened when a picture is drawn, libcurl when an upstream is on a server; nothing in the files says so.
+set(opened libembree3.so.3=libembree3-3 libcurl.so.4=libcurl4)
+foreach(pair IN LISTS opened)
+  string(REPLACE "=" ";" pair ${pair})
+  list(GET pair 0 file)
+  list(GET pair 1 package)
+  file(GLOB file /usr/lib/*/${file})
+  execute_process(COMMAND dpkg-query --search ${file} OUTPUT_VARIABLE owner ERROR_QUIET)
+  if(owner MATCHES "^([^:, ]+)")
+    set(package ${CMAKE_MATCH_1})
+  endif()
+  list(APPEND CPACK_DEBIAN_PACKAGE_DEPENDS ${package})
+endforeach()
+list(JOIN CPACK_DEBIAN_PACKAGE_DEPENDS ", " CPACK_DEBIAN_PACKAGE_DEPENDS)
 # The Python package and nodes in Python want it; the program does not.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS python3-numpy)
 if(TARGET ballflow_python)
@@ -45,5 +51,5 @@ if(TARGET ballflow_python)
 endif()
 # For who builds against the headers and static libraries.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
-  "python3, cmake, g++, nlohmann-json3-dev, libtbb-dev, libcgal-dev, libboost-dev, libcurl4-openssl-dev, libssl-dev, libzstd-dev, zlib1g-dev")
+  "python3, cmake, g++, nlohmann-json3-dev, libtbb-dev, libcgal-dev, libboost-dev, libssl-dev, libzstd-dev, zlib1g-dev")
 include(CPack)

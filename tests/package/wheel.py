@@ -148,6 +148,7 @@ def check_wheel(wheel: Path, source: Path, build: Path) -> None:
             "ballflow/bin/ballflow",
             "ballflow/lib/ballflow/cover.so",
             "ballflow/lib/libembree3.so.3",
+            "ballflow/lib/libcurl.so.4",
             "ballflow/share/ballflow/graphs/medial_axis.json",
             "ballflow/share/ballflow/schemas/graph.schema.json",
         ):

@@ -12,6 +12,9 @@
 
 namespace ballflow {
 
+class FileSystem;
+class RegistryLoader;
+
 /// A file that was looked at while searching for node libraries.
 struct PluginCandidate {
   std::string path;
@@ -29,8 +32,14 @@ class Registry {
   /// compute the same. Of copies of one file, and of equal declarations of a type, the first found stays. A
   /// file that is found twice is loaded once. A file *.py of `extra` is a library of nodes in Python: see
   /// docs/python_nodes.md.
+  ///
+  /// `cache`: a cache folder (store.hpp), whose file "libraries" keeps what libraries declare. One that is in
+  /// it and has not changed since is opened only when one of its nodes runs, and its declarations are parsed
+  /// when they are asked for; what is missing there is added. Empty: every library is opened.
   static std::shared_ptr<const Registry> load(const std::vector<std::string>& extra = {},
-                                              const std::string& installed = default_folder());
+                                              const std::string& installed = default_folder(),
+                                              const std::string& cache = {},
+                                              std::shared_ptr<FileSystem> files = {});
   /// The default folder of node libraries of this executable.
   static std::string default_folder();
 
@@ -47,19 +56,21 @@ class Registry {
 
   const NodeDeclaration* node(const std::string& id) const;
   const TypeDeclaration* type(const std::string& id) const;
-  const std::map<std::string, NodeDeclaration>& nodes() const { return nodes_; }
-  const std::map<std::string, TypeDeclaration>& types() const { return types_; }
+  const Declarations<NodeDeclaration>& nodes() const { return nodes_; }
+  const Declarations<TypeDeclaration>& types() const { return types_; }
   const std::vector<PluginCandidate>& candidates() const { return candidates_; }
   /// The folders that were searched, in order; some may not exist.
   const std::vector<std::string>& folders() const { return folders_; }
 
  private:
+  friend class RegistryLoader;
   void add_tables(const bf_plugin& plugin, const std::string& path,
                   const std::function<std::string(const std::string&)>& library_file);
+  void add_node(const std::string& id, std::shared_ptr<const Declared<NodeDeclaration>> node);
   void drop_nodes_of_unknown_types();
 
-  std::map<std::string, NodeDeclaration> nodes_;
-  std::map<std::string, TypeDeclaration> types_;
+  Declarations<NodeDeclaration> nodes_;
+  Declarations<TypeDeclaration> types_;
   std::vector<PluginCandidate> candidates_;
   std::vector<std::string> folders_;
   std::vector<std::shared_ptr<void>> owners_;  // of the tables of plugins

@@ -11,6 +11,7 @@
 //   <root>/leases/          one file per live run, locked by it: what it uses is not collected (gc.hpp)
 //   <root>/usage            bytes in the store, roughly, so that nobody has to count them after every run:
 //                           lines "=<bytes> <seconds since 1970>", a count, and "+<bytes>", written since
+//   <root>/libraries        what node libraries declare (plugin/library_index.hpp)
 //   <root>/CACHEDIR.TAG     tells backup programs to skip the folder
 //
 // Readers see whole files or none (written in tmp/, moved into place). A bad blob goes to quarantine and is

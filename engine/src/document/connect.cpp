@@ -17,12 +17,10 @@ class Connector {
   Connector(const Expansion& expansion, const Registry& registry,
             const std::map<std::string, ArtifactPtr>& given, References& references, Findings& findings)
       : expansion_(expansion), given_(given), references_(references), findings_(findings) {
-    for (const auto& [id, type] : registry.types()) type_names_.push_back(id);
-    for (const auto& [id, node] : registry.nodes()) {
-      for (const std::vector<PortDecl>* ports : {&node.inputs, &node.outputs}) {
-        for (const PortDecl& port : *ports) {
-          if (registry.type(port.type) == nullptr) type_names_.push_back(port.type);
-        }
+    for (const auto& [id, type] : registry.types().unparsed()) type_names_.push_back(id);
+    for (const auto& [id, node] : registry.nodes().unparsed()) {
+      for (const PortOutline& port : node->ports) {
+        if (!registry.types().unparsed().contains(port.type)) type_names_.push_back(port.type);
       }
     }
     std::sort(type_names_.begin(), type_names_.end());

@@ -38,7 +38,7 @@ class Expander {
   Expander(GraphFiles& files, const Registry& registry, const std::vector<const PlacedSetting*>& settings,
            Expansion& expansion, Findings& findings)
       : files_(files), registry_(registry), settings_(settings), expansion_(expansion), findings_(findings) {
-    for (const auto& [id, node] : registry.nodes()) type_names_.push_back(id);
+    for (const auto& [id, node] : registry.nodes().unparsed()) type_names_.push_back(id);
   }
 
   void run(const GraphFile& file) {

@@ -79,7 +79,7 @@ struct Ended {
 /// there is none that waits.
 class PythonFile {
  public:
-  PythonFile(const std::string& path, const std::map<std::string, TypeDeclaration>& types,
+  PythonFile(const std::string& path, const Declarations<TypeDeclaration>& types,
              const std::string& installed)
       : name_(fs::path(path).stem().string()) {
     std::error_code error;
@@ -358,7 +358,7 @@ class PythonFile {
 
 bool is_python_file(const std::string& path) { return path.ends_with(".py"); }
 
-PythonLibrary load_python(const std::string& path, const std::map<std::string, TypeDeclaration>& types,
+PythonLibrary load_python(const std::string& path, const Declarations<TypeDeclaration>& types,
                           const std::string& installed) {
   auto file = std::make_unique<PythonFile>(path, types, installed);
   PythonLibrary library{file->table(), file->digests()};

@@ -25,7 +25,7 @@ bool is_python_file(const std::string& path);
 /// may name, `installed` the folder of node libraries, beside which the Python package is. The interpreter is
 /// $BALLFLOW_PYTHON, else python3. Throws Error (code plugin) with the rest of the sentence "the node library
 /// my_nodes.py ...".
-PythonLibrary load_python(const std::string& path, const std::map<std::string, TypeDeclaration>& types,
+PythonLibrary load_python(const std::string& path, const Declarations<TypeDeclaration>& types,
                           const std::string& installed);
 
 }  // namespace ballflow

@@ -1,7 +1,5 @@
 #include "ballflow/registry.hpp"
 
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -9,7 +7,9 @@
 
 #include "ballflow/error.hpp"
 #include "base/quote.hpp"
+#include "plugin/lazy_library.hpp"
 #include "plugin/library_file.hpp"
+#include "plugin/library_index.hpp"
 #include "plugin/python_library.hpp"
 #include "plugin/text_view.hpp"
 
@@ -61,6 +61,7 @@ PluginTables read_tables(const bf_plugin& plugin, const std::string& path) {
     if (entry->run == nullptr) refuse("node " + in_quotes(node.id) + " has no run function");
     node.plugin_path = path;
     node.entry = entry;
+    node.lists_files = entry->struct_size >= BALLFLOW_SIZE_UP_TO(bf_node, files) && entry->files != nullptr;
     tables.nodes.push_back(std::move(node));
   }
   return tables;
@@ -69,15 +70,37 @@ PluginTables read_tables(const bf_plugin& plugin, const std::string& path) {
 std::string origin(const std::string& path) { return path.empty() ? "this program" : path; }
 
 template <class Declaration>
-void add_once(std::map<std::string, Declaration>& all, Declaration added, const char* what) {
-  const auto [place, fresh] = all.try_emplace(added.id, added);
-  if (fresh || place->second.same_content(added)) return;  // the first of equal ones stays
-  const Declaration& other = place->second;
+void add_once(Declarations<Declaration>& all, const std::string& id,
+              std::shared_ptr<const Declared<Declaration>> declared, const char* what) {
+  const auto [place, fresh] = all.unparsed().try_emplace(id, declared);
+  if (fresh) return;
+  const Declaration &other = place->second->get(), &added = declared->get();
+  if (other.same_content(added)) return;  // the first of equal ones stays
   throw Error(ExitCode::plugin,
               std::string(what) + " " + in_quotes(added.id) + " is declared differently by " +
                   origin(other.plugin_path) + " (version " + std::to_string(other.version) + ") and by " +
                   origin(added.plugin_path) + " (version " + std::to_string(added.version) + ")",
               "remove one of the two libraries, or build both from the same sources");
+}
+
+template <class Declaration>
+std::shared_ptr<const Declared<Declaration>> declared(Declaration parsed) {
+  return std::make_shared<const Declared<Declaration>>(std::move(parsed));
+}
+
+std::shared_ptr<const LibraryOutline> outline_of(const bf_plugin& plugin, const PluginTables& tables,
+                                                 std::optional<Digest> digest) {
+  LibraryOutline outline{tables.name, tables.version, digest, {}, {}};
+  for (std::size_t i = 0; i < tables.types.size(); ++i) {
+    const TypeDeclaration& type = tables.types[i];
+    outline.types.push_back({type.id, type.version, std::string(view(plugin.types[i]->declaration))});
+  }
+  for (std::size_t i = 0; i < tables.nodes.size(); ++i) {
+    const NodeDeclaration& node = tables.nodes[i];
+    outline.nodes.push_back({node.id, node.lists_files, std::string(view(plugin.nodes[i]->declaration)),
+                             Declared<NodeDeclaration>(node).ports});
+  }
+  return std::make_shared<const LibraryOutline>(std::move(outline));
 }
 
 /// Nodes that a program adds itself have no file, and are told apart by their declarations only.
@@ -113,17 +136,26 @@ std::string Registry::default_folder() {
 }
 
 void Registry::add(NodeDeclaration node) {
-  const auto known = nodes_.find(node.id);
-  if (known != nodes_.end() && known->second.same_content(node) && !same_file(known->second, node)) {
+  const std::string id = node.id;
+  add_node(id, declared(std::move(node)));
+}
+
+void Registry::add_node(const std::string& id, std::shared_ptr<const Declared<NodeDeclaration>> node) {
+  const NodeDeclaration* const known = nodes_.find(id);
+  if (known != nullptr && known->same_content(node->get()) && !same_file(*known, node->get())) {
     throw Error(ExitCode::plugin,
-                "node " + in_quotes(node.id) + " is declared in the same words by two different files, " +
-                    origin(known->second.plugin_path) + " and " + origin(node.plugin_path) +
+                "node " + in_quotes(id) + " is declared in the same words by two different files, " +
+                    origin(known->plugin_path) + " and " + origin(node->plugin_path) +
                     ", and may compute different things",
                 "remove one of the two libraries, or install the same build in both places");
   }
-  add_once(nodes_, std::move(node), "node");
+  add_once(nodes_, id, std::move(node), "node");
 }
-void Registry::add(TypeDeclaration type) { add_once(types_, std::move(type), "type"); }
+
+void Registry::add(TypeDeclaration type) {
+  const std::string id = type.id;
+  add_once(types_, id, declared(std::move(type)), "type");
+}
 
 void Registry::add_plugin(const bf_plugin& plugin, const std::string& path, const std::string& library_file) {
   add_tables(plugin, path, [&](const std::string&) { return library_file; });
@@ -149,138 +181,192 @@ void Registry::add_tables(const bf_plugin& plugin, const std::string& path,
   candidates_.push_back({path, tables.name, tables.version, ""});
 }
 
-std::shared_ptr<const Registry> Registry::load(const std::vector<std::string>& extra,
-                                               const std::string& own) {
-  const auto registry = std::make_shared<Registry>();
-  std::set<std::string> seen;
-  std::error_code none;
-  const fs::path installed = own.empty() ? fs::path() : fs::canonical(own, none);
+/// What one call of Registry::load needs to know.
+class RegistryLoader {
+ public:
+  RegistryLoader(Registry& registry, std::string own, const std::string& cache,
+                 std::shared_ptr<FileSystem> files)
+      : registry_(registry), own_(std::move(own)), index_(cache, std::move(files)) {
+    std::error_code none;
+    if (!own_.empty()) installed_ = fs::canonical(own_, none);
+  }
 
-  const auto load_file = [&](const std::string& path) -> std::string {
+  void load(const std::vector<std::string>& extra) {
+    for (const std::string& path : extra) {
+      std::error_code error;
+      if (fs::is_directory(path, error)) {
+        load_folder(path);
+      } else if (is_python_file(path)) {
+        // Functions name types, so their files come when all types are known.
+        python_files_.push_back(path);
+      } else if (const std::string why = load_file(path); !why.empty()) {
+        throw Error(ExitCode::plugin, "the node library " + path + " " + why);
+      }
+    }
+    if (const char* folders = std::getenv("BALLFLOW_PLUGIN_PATH")) {
+      std::string_view rest = folders;
+      while (!rest.empty()) {
+        const std::string_view folder = rest.substr(0, rest.find(':'));
+        rest.remove_prefix(std::min(rest.size(), folder.size() + 1));
+        if (!folder.empty()) load_folder(std::string(folder));
+      }
+    }
+    if (!own_.empty()) load_folder(own_);
+    for (const std::string& path : python_files_) load_python_file(path);
+    index_.save();
+  }
+
+ private:
+  void load_folder(const std::string& folder) {
+    registry_.folders_.push_back(folder);
+    for (const std::string& file : libraries_in(folder)) load_file(file);
+  }
+
+  /// Empty when the library is in the registry now, or was before; else why it is not.
+  std::string load_file(const std::string& path) {
     std::error_code error;
-    const fs::path real = fs::canonical(path, error);
-    if (!error && !seen.insert(real.string()).second) return {};
-    std::string why = refuse_plugin_file(path);
-    const bf_plugin* plugin = nullptr;
-    std::string library_file;
-    if (why.empty()) {
-      const fs::file_time_type written = fs::last_write_time(real, error);
-      if (real.parent_path() != installed) library_file = library_digest(real.string()).hex();
-      // Never closed: artifacts, declarations and thread-local destructors point into it.
-      void* const handle = dlopen(real.c_str(), RTLD_NOW | RTLD_LOCAL);
-      if (handle == nullptr) {
-        const char* const reason = dlerror();
-        why = std::string("cannot be loaded: ") + (reason != nullptr ? reason : "unknown reason");
-      } else if (const auto entry = reinterpret_cast<bf_plugin_entry>(dlsym(handle, "ballflow_plugin"));
-                 entry == nullptr) {
-        why = "exports no function ballflow_plugin";
-      } else if (fs::last_write_time(real, error) != written) {
-        why = "was written while it was loaded: try again";
-      } else if (plugin = entry(); plugin == nullptr) {
-        why = "could not make its tables of nodes and types";
+    const fs::path real = real_path(path, error);
+    if (!error && !seen_.insert(real.string()).second) return {};
+    struct stat status {};
+    if (!error && ::stat(real.c_str(), &status) == 0 &&
+        !was_opened_otherwise(real.string(), FileState(status))) {
+      if (const auto outline = index_.find(real.string(), FileState(status));
+          outline != nullptr && (outline->digest || is_installed(real))) {
+        add_outline(path, real.string(), FileState(status), outline);
+        return {};
       }
     }
-    if (plugin != nullptr) {
-      try {
-        read_tables(*plugin, path);
-      } catch (const Error& problem) {
-        why = problem.what();
-      }
-    }
-    if (why.empty()) {
-      registry->add_plugin(*plugin, path, library_file);
-    } else {
-      registry->candidates_.push_back({path, "", "", why});
-    }
+    const std::string why = load_now(path, real, status);
+    if (!why.empty()) registry_.candidates_.push_back({path, "", "", why});
     return why;
-  };
+  }
 
-  // Functions name types, so their files come when all types are known.
-  std::vector<std::string> python_files;
-  const auto load_python_file = [&](const std::string& path) {
+  std::string load_now(const std::string& path, const fs::path& real, const struct stat& status) {
+    std::string why = refuse_plugin_file(path);
+    if (!why.empty()) return why;
+    std::optional<Digest> digest;
+    if (!is_installed(real)) digest = library_digest(real.string());
+    const FileState state(status);
+    const bf_plugin* const plugin = open_library(real.string(), state, why);
+    if (plugin == nullptr) return why;
+    try {
+      PluginTables tables = read_tables(*plugin, path);
+      // What a table gives back when it is released does not outlive its registry.
+      if (plugin->release == nullptr && !was_opened_otherwise(real.string(), state))
+        index_.add(real.string(), state, outline_of(*plugin, tables, digest));
+    } catch (const Error& problem) {
+      return problem.what();
+    }
+    registry_.add_plugin(*plugin, path, digest ? digest->hex() : std::string());
+    return {};
+  }
+
+  void add_outline(const std::string& path, const std::string& real, const FileState& state,
+                   const std::shared_ptr<const LibraryOutline>& outline) {
+    const auto library = std::make_shared<const LazyLibrary>(real, state, outline);
+    const std::string digest =
+        outline->digest && !is_installed(real) ? outline->digest->hex() : std::string();
+    for (std::size_t i = 0; i < outline->types.size(); ++i) {
+      const TypeOutline& type = outline->types[i];
+      const auto parse = [path, library, outline, i] {
+        TypeDeclaration parsed = parse_type_declaration(outline->types[i].declaration);
+        parsed.plugin_path = path;
+        parsed.entry = {library, i};
+        return parsed;
+      };
+      add_once(registry_.types_, type.id,
+               std::make_shared<const Declared<TypeDeclaration>>(path, type.version,
+                                                                 std::vector<PortOutline>(), parse),
+               "type");
+    }
+    for (std::size_t i = 0; i < outline->nodes.size(); ++i) {
+      const NodeOutline& node = outline->nodes[i];
+      const auto parse = [path, library, outline, digest, i] {
+        NodeDeclaration parsed = parse_node_declaration(outline->nodes[i].declaration);
+        parsed.plugin_path = path;
+        parsed.library_file = digest;
+        parsed.lists_files = outline->nodes[i].lists_files;
+        parsed.entry = {library, i};
+        return parsed;
+      };
+      registry_.add_node(node.id,
+                         std::make_shared<const Declared<NodeDeclaration>>(path, 0, node.ports, parse));
+    }
+    registry_.candidates_.push_back({path, outline->name, outline->version, ""});
+  }
+
+  void load_python_file(const std::string& path) {
     std::error_code error;
     const fs::path real = fs::canonical(path, error);
-    if (!error && !seen.insert(real.string()).second) return;
+    if (!error && !seen_.insert(real.string()).second) return;
     PythonLibrary library;
     try {
-      library = load_python(path, registry->types_, own);
+      library = load_python(path, registry_.types_, own_);
       read_tables(*library.table, path);
     } catch (const Error& problem) {
       if (library.table != nullptr) library.table->release(library.table->owner);
       throw Error(ExitCode::plugin, "the node library " + path + " " + problem.what(), problem.hint());
     }
-    registry->add_plugin(*library.table, path, library.digests);
-  };
-
-  const auto load_folder = [&](const std::string& folder) {
-    registry->folders_.push_back(folder);
-    for (const std::string& file : libraries_in(folder)) load_file(file);
-  };
-
-  for (const std::string& path : extra) {
-    std::error_code error;
-    if (fs::is_directory(path, error)) {
-      load_folder(path);
-      continue;
-    }
-    if (is_python_file(path)) {
-      python_files.push_back(path);
-      continue;
-    }
-    const std::string why = load_file(path);
-    if (!why.empty()) throw Error(ExitCode::plugin, "the node library " + path + " " + why);
+    registry_.add_plugin(*library.table, path, library.digests);
   }
-  if (const char* folders = std::getenv("BALLFLOW_PLUGIN_PATH")) {
-    std::string_view rest = folders;
-    while (!rest.empty()) {
-      const std::string_view folder = rest.substr(0, rest.find(':'));
-      rest.remove_prefix(std::min(rest.size(), folder.size() + 1));
-      if (!folder.empty()) load_folder(std::string(folder));
-    }
-  }
-  if (!own.empty()) load_folder(own);
-  for (const std::string& path : python_files) load_python_file(path);
 
+  bool is_installed(const fs::path& real) const { return real.parent_path() == installed_; }
+
+  /// As fs::canonical, which asks for every folder above every file.
+  fs::path real_path(const fs::path& path, std::error_code& error) {
+    if (fs::is_symlink(path, error) || error || !path.has_parent_path()) return fs::canonical(path, error);
+    const auto [place, fresh] = real_folders_.try_emplace(path.parent_path().string());
+    if (fresh) place->second = fs::canonical(path.parent_path(), error);
+    return place->second / path.filename();
+  }
+
+  Registry& registry_;
+  std::string own_;
+  fs::path installed_;
+  LibraryIndex index_;
+  std::set<std::string> seen_;
+  std::map<std::string, fs::path> real_folders_;
+  std::vector<std::string> python_files_;
+};
+
+std::shared_ptr<const Registry> Registry::load(const std::vector<std::string>& extra, const std::string& own,
+                                               const std::string& cache, std::shared_ptr<FileSystem> files) {
+  const auto registry = std::make_shared<Registry>();
+  RegistryLoader(*registry, own, cache, std::move(files)).load(extra);
   registry->drop_nodes_of_unknown_types();
   return registry;
 }
 
 void Registry::drop_nodes_of_unknown_types() {
-  const auto problem_of = [&](const NodeDeclaration& node) -> std::string {
-    for (const std::vector<PortDecl>* ports : {&node.inputs, &node.outputs}) {
-      for (const PortDecl& port : *ports) {
-        const TypeDeclaration* known = type(port.type);
-        const std::string start = "node " + in_quotes(node.id) + ": port " + in_quotes(port.name) +
-                                  " has the type " + in_quotes(port.type) + " version " +
-                                  std::to_string(port.type_version);
-        if (known == nullptr) return start + ", which no loaded library declares";
-        if (known->version != port.type_version) {
-          return start + ", but version " + std::to_string(known->version) + " is declared by " +
-                 origin(known->plugin_path);
-        }
-      }
+  const auto problem_of = [&](const std::string& id, const Declared<NodeDeclaration>& node) -> std::string {
+    for (const PortOutline& port : node.ports) {
+      const auto known = types_.unparsed().find(port.type);
+      const bool there = known != types_.unparsed().end();
+      if (there && known->second->version == port.type_version) continue;
+      const std::string start = "node " + in_quotes(id) + ": port " + in_quotes(port.name) +
+                                " has the type " + in_quotes(port.type) + " version " +
+                                std::to_string(port.type_version);
+      if (!there) return start + ", which no loaded library declares";
+      return start + ", but version " + std::to_string(known->second->version) + " is declared by " +
+             origin(known->second->plugin_path);
     }
     return {};
   };
   std::set<std::string> dropped;
-  for (const auto& [id, node] : nodes_) {
-    const std::string problem = problem_of(node);
-    if (problem.empty() || !dropped.insert(node.plugin_path).second) continue;
+  for (const auto& [id, node] : nodes_.unparsed()) {
+    const std::string problem = problem_of(id, *node);
+    if (problem.empty() || !dropped.insert(node->plugin_path).second) continue;
     for (PluginCandidate& candidate : candidates_) {
-      if (candidate.path == node.plugin_path) candidate.refused = problem;
+      if (candidate.path == node->plugin_path) candidate.refused = problem;
     }
   }
-  std::erase_if(nodes_, [&](const auto& item) { return dropped.contains(item.second.plugin_path); });
+  if (dropped.empty()) return;
+  std::erase_if(nodes_.unparsed(),
+                [&](const auto& item) { return dropped.contains(item.second->plugin_path); });
 }
 
-const NodeDeclaration* Registry::node(const std::string& id) const {
-  const auto found = nodes_.find(id);
-  return found == nodes_.end() ? nullptr : &found->second;
-}
+const NodeDeclaration* Registry::node(const std::string& id) const { return nodes_.find(id); }
 
-const TypeDeclaration* Registry::type(const std::string& id) const {
-  const auto found = types_.find(id);
-  return found == types_.end() ? nullptr : &found->second;
-}
+const TypeDeclaration* Registry::type(const std::string& id) const { return types_.find(id); }
 
 }  // namespace ballflow

@@ -15,7 +15,8 @@ namespace {
 /// Null where the node does not read files that others name.
 const bf_node* lister_of(const DagNode& node) {
   const NodeDeclaration* decl = node.kind.declared();
-  const bf_node* entry = decl == nullptr ? nullptr : decl->entry;
+  if (decl == nullptr || !decl->lists_files) return nullptr;
+  const bf_node* const entry = decl->entry;
   if (entry == nullptr || entry->struct_size < BALLFLOW_SIZE_UP_TO(bf_node, files)) return nullptr;
   return entry->files == nullptr ? nullptr : entry;
 }

@@ -256,9 +256,23 @@ ExecutionOutcome execute_node(const ExecutionRequest& request) {
         "again";
     return refused;
   }
+  const bf_node* opened = nullptr;
+  try {
+    opened = request.node->kind.declared()->entry;
+    // The checks of outputs must not fail for want of the library that has them.
+    for (const PortDecl& port : request.node->kind.outputs()) {
+      const TypeDeclaration* const type = request.registry->type(port.type);
+      if (type != nullptr) static_cast<void>(static_cast<const bf_type*>(type->entry));
+    }
+  } catch (const Error& error) {
+    ExecutionOutcome refused;
+    refused.cause = error.what();
+    refused.hint = error.hint();
+    return refused;
+  }
   Host host(request);
   const bf_run table = host.table();
-  const bf_node& entry = *request.node->kind.declared()->entry;
+  const bf_node& entry = *opened;
   const int status = entry.run(entry.self, &table);
   host.rethrow();
   ExecutionOutcome outcome = std::move(host.outcome);

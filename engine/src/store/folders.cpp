@@ -120,20 +120,6 @@ std::shared_ptr<const StoreFolders> open_folders(const StoreOptions& options,
   return store;
 }
 
-std::string distrust(const struct stat& status) {
-  if (status.st_uid != ::geteuid() && status.st_uid != 0) {
-    return "belongs to another user (id " + std::to_string(status.st_uid) + ")";
-  }
-  if ((status.st_mode & (S_IWGRP | S_IWOTH)) != 0) {
-    std::string mode = "0000";
-    for (std::size_t i = 0; i < mode.size(); ++i) {
-      mode[i] = static_cast<char>('0' + (status.st_mode >> (9 - 3 * i) & 7));
-    }
-    return "can be written by other users (mode " + mode + ")";
-  }
-  return {};
-}
-
 OpenFile open_shard(const StoreFolders& folders, const OpenFile& top, const std::string& hex, bool create) {
   FileSystem& files = *folders.files;
   if (!top.is_open()) return {files, -ENOENT};

@@ -13,6 +13,7 @@
 
 #include "ballflow/digest.hpp"
 #include "ballflow/store.hpp"
+#include "base/file_state.hpp"
 #include "base/open_file.hpp"
 
 namespace ballflow {
@@ -30,9 +31,6 @@ struct StoreFolders {
 /// Opens or creates. Throws Error (code store) when a folder cannot be trusted.
 std::shared_ptr<const StoreFolders> open_folders(const StoreOptions& options,
                                                  std::shared_ptr<FileSystem> files);
-
-/// Why the owner or the mode of a file or folder makes it unfit for a cache; empty when they do not.
-std::string distrust(const struct stat& status);
 
 inline std::string shard_of(const std::string& hex) { return hex.substr(0, 2); }
 inline std::string rest_of(const std::string& hex) { return hex.substr(2); }
@@ -61,8 +59,6 @@ std::vector<StoredFile> files_below(const StoreFolders& folders, const OpenFile&
 bool to_quarantine(const StoreFolders& folders, const OpenFile& shard, const std::string& hex);
 
 inline constexpr std::int64_t second = 1'000'000'000;  // in nanoseconds
-
-inline std::int64_t nanoseconds(const timespec& time) { return time.tv_sec * second + time.tv_nsec; }
 
 inline std::string system_message(int negative_errno) {
   return std::generic_category().message(-negative_errno);

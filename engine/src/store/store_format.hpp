@@ -14,14 +14,13 @@
 //   "bfdigest" u32:1 u64:device u64:inode u64:size i64:mtime_ns i64:ctime_ns digest[32] checksum
 #pragma once
 
-#include <sys/stat.h>
-
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "ballflow/store.hpp"
+#include "base/file_state.hpp"
 
 namespace ballflow {
 
@@ -31,21 +30,6 @@ std::string encode(const Digest& key, const ActionEntry& entry);
 
 /// Nothing when the bytes break the grammar or belong to another key.
 std::optional<ActionEntry> decode_action(const Digest& key, std::string_view bytes);
-
-/// What tells one state of a file from another without reading it.
-struct FileState {
-  std::uint64_t device = 0, inode = 0, size = 0;
-  std::int64_t modified = 0, changed = 0;  // nanoseconds since 1970
-
-  FileState() = default;
-  explicit FileState(const struct stat& status);
-  friend bool operator==(const FileState&, const FileState&) = default;
-
-  /// Old enough that any later write gives another time stamp.
-  bool settled(std::int64_t now) const;
-  /// Where the digest of the file is kept, in files/.
-  std::string memo_name() const;
-};
 
 struct Memo {
   FileState state;

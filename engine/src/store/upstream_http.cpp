@@ -1,11 +1,10 @@
 #include "store/upstream_http.hpp"
 
-#include <curl/curl.h>
-
 #include <algorithm>
 #include <cstring>
 
 #include "ballflow/error.hpp"
+#include "store/curl.hpp"
 
 namespace ballflow {
 namespace {
@@ -51,13 +50,13 @@ struct Pieces {
 
 struct Taker {
   const Upstream::Sink& sink;
-  CURL* curl;
+  CURL* handle;
   bool refused = false;
 
   static std::size_t write(char* from, std::size_t size, std::size_t count, void* self_pointer) {
     auto& self = *static_cast<Taker*>(self_pointer);
     long status = 0;
-    curl_easy_getinfo(self.curl, CURLINFO_RESPONSE_CODE, &status);
+    curl().easy_getinfo(self.handle, CURLINFO_RESPONSE_CODE, &status);
     if (status != 200) return size * count;  // the page that says what is wrong
     if (self.sink(std::as_bytes(std::span(from, size * count)))) return size * count;
     self.refused = true;
@@ -78,44 +77,44 @@ bool is_address(const std::string& place) {
 /// One at a time; its socket stays open between requests.
 class UpstreamHttp::Connection {
  public:
-  Connection() : curl_(curl_easy_init()) {
+  Connection() : curl_(curl().easy_init()) {
     if (curl_ == nullptr) throw Error(ExitCode::store, "libcurl cannot be started");
-    headers_ = curl_slist_append(nullptr, "Expect:");  // no pause before content is sent
-    headers_ = curl_slist_append(headers_, "Content-Type: application/octet-stream");
+    headers_ = curl().slist_append(nullptr, "Expect:");  // no pause before content is sent
+    headers_ = curl().slist_append(headers_, "Content-Type: application/octet-stream");
   }
   ~Connection() {
-    curl_slist_free_all(headers_);
-    curl_easy_cleanup(curl_);
+    curl().slist_free_all(headers_);
+    curl().easy_cleanup(curl_);
   }
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
   CURL* begin(const std::string& url) {
-    curl_easy_reset(curl_);
-    curl_easy_setopt(curl_, CURLOPT_URL, url.c_str());
-    curl_easy_setopt(curl_, CURLOPT_NOSIGNAL, 1L);
-    curl_easy_setopt(curl_, CURLOPT_CONNECTTIMEOUT_MS, connect_ms);
-    curl_easy_setopt(curl_, CURLOPT_LOW_SPEED_TIME, quiet_seconds);
-    curl_easy_setopt(curl_, CURLOPT_LOW_SPEED_LIMIT, slowest_bytes_per_second);
-    curl_easy_setopt(curl_, CURLOPT_PROTOCOLS_STR, "http,https");
-    curl_easy_setopt(curl_, CURLOPT_WRITEFUNCTION, &ignore);
-    curl_easy_setopt(curl_, CURLOPT_HTTPHEADER, headers_);
-    curl_easy_setopt(curl_, CURLOPT_BUFFERSIZE, 512L << 10);
-    curl_easy_setopt(curl_, CURLOPT_ERRORBUFFER, error_);
+    curl().easy_reset(curl_);
+    curl().easy_setopt(curl_, CURLOPT_URL, url.c_str());
+    curl().easy_setopt(curl_, CURLOPT_NOSIGNAL, 1L);
+    curl().easy_setopt(curl_, CURLOPT_CONNECTTIMEOUT_MS, connect_ms);
+    curl().easy_setopt(curl_, CURLOPT_LOW_SPEED_TIME, quiet_seconds);
+    curl().easy_setopt(curl_, CURLOPT_LOW_SPEED_LIMIT, slowest_bytes_per_second);
+    curl().easy_setopt(curl_, CURLOPT_PROTOCOLS_STR, "http,https");
+    curl().easy_setopt(curl_, CURLOPT_WRITEFUNCTION, &ignore);
+    curl().easy_setopt(curl_, CURLOPT_HTTPHEADER, headers_);
+    curl().easy_setopt(curl_, CURLOPT_BUFFERSIZE, 512L << 10);
+    curl().easy_setopt(curl_, CURLOPT_ERRORBUFFER, error_);
     error_[0] = '\0';
     return curl_;
   }
 
   Answer send() {
     Answer answer;
-    const CURLcode code = curl_easy_perform(curl_);
-    curl_easy_getinfo(curl_, CURLINFO_RESPONSE_CODE, &answer.status);
+    const CURLcode code = curl().easy_perform(curl_);
+    curl().easy_getinfo(curl_, CURLINFO_RESPONSE_CODE, &answer.status);
     curl_off_t length = -1;
-    curl_easy_getinfo(curl_, CURLINFO_CONTENT_LENGTH_DOWNLOAD_T, &length);
+    curl().easy_getinfo(curl_, CURLINFO_CONTENT_LENGTH_DOWNLOAD_T, &length);
     answer.length = length < 0 ? 0 : static_cast<std::uint64_t>(length);
     if (code == CURLE_OK) return answer;
     answer.status = 0;
-    answer.why = error_[0] != '\0' ? error_ : curl_easy_strerror(code);
+    answer.why = error_[0] != '\0' ? error_ : curl().easy_strerror(code);
     answer.unreachable = is_unreachable(code);
     return answer;
   }
@@ -128,11 +127,9 @@ class UpstreamHttp::Connection {
 
 UpstreamHttp::UpstreamHttp(std::string address) : address_(std::move(address)) {
   while (address_.ends_with('/')) address_.pop_back();
-  static const bool started = curl_global_init(CURL_GLOBAL_DEFAULT) == CURLE_OK;
-  if (!started) throw Error(ExitCode::store, "libcurl cannot be started");
-  CURLU* const parts = curl_url();
-  const bool good = curl_url_set(parts, CURLUPART_URL, address_.c_str(), 0) == CURLUE_OK;
-  curl_url_cleanup(parts);
+  CURLU* const parts = curl().url();
+  const bool good = curl().url_set(parts, CURLUPART_URL, address_.c_str(), 0) == CURLUE_OK;
+  curl().url_cleanup(parts);
   if (good && address_.find_first_of("?#") == std::string::npos) return;
   throw Error(ExitCode::usage, "the upstream " + address_ + " is no address",
               "write it as http://host:port/path, or name a folder");
@@ -163,10 +160,10 @@ std::string UpstreamHttp::url(Room room, const Digest& name) const {
 
 Upstream::Read UpstreamHttp::get(Room room, const Digest& name, const Sink& sink, bool) {
   std::unique_ptr<Connection> connection = take();
-  CURL* const curl = connection->begin(url(room, name));
-  Taker taker{sink, curl};
-  curl_easy_setopt(curl, CURLOPT_WRITEFUNCTION, &Taker::write);
-  curl_easy_setopt(curl, CURLOPT_WRITEDATA, &taker);
+  CURL* const handle = connection->begin(url(room, name));
+  Taker taker{sink, handle};
+  curl().easy_setopt(handle, CURLOPT_WRITEFUNCTION, &Taker::write);
+  curl().easy_setopt(handle, CURLOPT_WRITEDATA, &taker);
   const Answer answer = connection->send();
   give_back(std::move(connection));
   if (taker.refused) return {Got::refused, {}};
@@ -178,8 +175,8 @@ Upstream::Read UpstreamHttp::get(Room room, const Digest& name, const Sink& sink
 
 std::optional<std::uint64_t> UpstreamHttp::size(Room room, const Digest& name) {
   std::unique_ptr<Connection> connection = take();
-  CURL* const curl = connection->begin(url(room, name));
-  curl_easy_setopt(curl, CURLOPT_NOBODY, 1L);
+  CURL* const handle = connection->begin(url(room, name));
+  curl().easy_setopt(handle, CURLOPT_NOBODY, 1L);
   const Answer answer = connection->send();
   give_back(std::move(connection));
   if (answer.status != 200) return std::nullopt;
@@ -191,16 +188,16 @@ Upstream::Written UpstreamHttp::put(Room room, const Digest& name,
                                     const PutOptions& options) {
   if (!options.replace && size(room, name)) return {Put::there, {}};
   std::unique_ptr<Connection> connection = take();
-  CURL* const curl = connection->begin(url(room, name));
+  CURL* const handle = connection->begin(url(room, name));
   Pieces source{pieces, options.give_up};
   std::uint64_t bytes = 0;
   for (const std::span<const std::byte> piece : pieces) bytes += piece.size();
-  curl_easy_setopt(curl, CURLOPT_UPLOAD, 1L);
-  curl_easy_setopt(curl, CURLOPT_INFILESIZE_LARGE, static_cast<curl_off_t>(bytes));
-  curl_easy_setopt(curl, CURLOPT_READFUNCTION, &Pieces::read);
-  curl_easy_setopt(curl, CURLOPT_READDATA, &source);
-  curl_easy_setopt(curl, CURLOPT_SEEKFUNCTION, &Pieces::rewind);
-  curl_easy_setopt(curl, CURLOPT_SEEKDATA, &source);
+  curl().easy_setopt(handle, CURLOPT_UPLOAD, 1L);
+  curl().easy_setopt(handle, CURLOPT_INFILESIZE_LARGE, static_cast<curl_off_t>(bytes));
+  curl().easy_setopt(handle, CURLOPT_READFUNCTION, &Pieces::read);
+  curl().easy_setopt(handle, CURLOPT_READDATA, &source);
+  curl().easy_setopt(handle, CURLOPT_SEEKFUNCTION, &Pieces::rewind);
+  curl().easy_setopt(handle, CURLOPT_SEEKDATA, &source);
   const Answer answer = connection->send();
   give_back(std::move(connection));
   if (answer.status >= 200 && answer.status < 300) return {Put::written, {}};
@@ -211,8 +208,8 @@ Upstream::Written UpstreamHttp::put(Room room, const Digest& name,
 
 bool UpstreamHttp::set_aside(Room room, const Digest& name) {
   std::unique_ptr<Connection> connection = take();
-  CURL* const curl = connection->begin(url(room, name));
-  curl_easy_setopt(curl, CURLOPT_CUSTOMREQUEST, "DELETE");
+  CURL* const handle = connection->begin(url(room, name));
+  curl().easy_setopt(handle, CURLOPT_CUSTOMREQUEST, "DELETE");
   const Answer answer = connection->send();
   give_back(std::move(connection));
   return answer.status >= 200 && answer.status < 300;

@@ -14,7 +14,7 @@ bool is_address(const std::string& place);
 
 class UpstreamHttp final : public Upstream {
  public:
-  /// Throws Error (code usage) when the address is none.
+  /// Throws Error: when the address is none (code usage), when libcurl is not there (code store).
   explicit UpstreamHttp(std::string address);
   ~UpstreamHttp() override;
 

@@ -17,7 +17,8 @@ namespace ballflow::cli {
 namespace fs = std::filesystem;
 
 std::shared_ptr<const Registry> Common::registry() const {
-  std::shared_ptr<const Registry> registry = Registry::load(plugins);
+  const std::string root = no_cache ? "" : cache.empty() ? Store::default_root() : cache;
+  std::shared_ptr<const Registry> registry = Registry::load(plugins, Registry::default_folder(), root);
   for (const PluginCandidate& candidate : registry->candidates())
     places->reads("a node library", candidate.path);
   return registry;

@@ -73,7 +73,7 @@ int show_nodes(const Common& common, const NodesArguments& arguments) {
     const NodeDeclaration* node = registry->node(arguments.describe);
     if (node == nullptr) {
       std::vector<std::string> names;
-      for (const auto& [id, declaration] : registry->nodes()) names.push_back(id);
+      for (const auto& [id, declaration] : registry->nodes().unparsed()) names.push_back(id);
       const std::string near = nearest(arguments.describe, names);
       throw Error(ExitCode::usage, "there is no node type \"" + arguments.describe + "\"",
                   near.empty() ? "\"ballflow nodes\" lists them" : "did you mean \"" + near + "\"?");

@@ -11,8 +11,8 @@ namespace {
 template <class Declarations>
 std::vector<std::string> ids_from(const Declarations& declarations, const std::string& path) {
   std::vector<std::string> ids;
-  for (const auto& [id, declaration] : declarations) {
-    if (declaration.plugin_path == path) ids.push_back(id);
+  for (const auto& [id, declaration] : declarations.unparsed()) {
+    if (declaration->plugin_path == path) ids.push_back(id);
   }
   return ids;
 }

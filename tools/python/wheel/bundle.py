@@ -1,10 +1,10 @@
 """Puts the shared libraries that not every Linux has into the package.
 
 auditwheel follows what extensions of Python need. Here the program and the node libraries need as much, and
-the program opens node libraries and Embree by itself; so every ELF file of the package is looked at, and
-Embree is named. A library gets a name with a digest of its content, so that nothing else in the process
-(another package's TBB, say) can be taken for it, and is found through $ORIGIN. All files name the same one:
-there is one libtbb in the process, with one pool of threads.
+the program opens node libraries, Embree and libcurl by itself; so every ELF file of the package is looked at,
+and these two are named. A library gets a name with a digest of its content, so that nothing else in the
+process (another package's TBB, say) can be taken for it, and is found through $ORIGIN. All files name the
+same one: there is one libtbb in the process, with one pool of threads.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ from pathlib import Path
 EVERYWHERE = re.compile(
     r"(ld-linux.*|libc|libm|libdl|librt|libpthread|libutil|libresolv|libgcc_s|libstdc\+\+)\.so\.\d+"
 )
-# Opened by name when a picture is drawn, so it keeps its name.
-OPENED = ["libembree3.so.3"]
+# Opened by name when a picture is drawn or an upstream is on a server, so they keep their names.
+OPENED = {"libembree3.so.3": "libembree-dev", "libcurl.so.4": "libcurl4"}
 
 
 def run(*command: str) -> str:
@@ -56,7 +56,7 @@ def opened(name: str) -> Path:
         match = re.match(rf"\s*{re.escape(name)} .* => (\S+)", line)
         if match:
             return Path(match[1])
-    sys.exit(f"{name} is not on this machine (Debian package libembree-dev)")
+    sys.exit(f"{name} is not on this machine (Debian package {OPENED[name]})")
 
 
 def hashed(name: str, path: Path) -> str:
