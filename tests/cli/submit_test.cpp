@@ -2,6 +2,7 @@
 // what is submitted, with what, and what comes of it. tests/cluster has the real one.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -130,6 +131,13 @@ TEST_F(SubmitCli, jobs_give_the_digests_of_a_local_run_and_a_second_submission_s
   EXPECT_EQ(again.exit_code, 0) << again.err;
   EXPECT_NE(again.out.find("nothing to submit"), std::string::npos) << again.out;
   EXPECT_EQ(calls().size(), sent);
+  // A run like any other, with pages and tables of it.
+  const std::string page = folder.file("report.html");
+  EXPECT_EQ(ballflow({"report", "latest", "--pictures", "0", "-o", page}).exit_code, 0);
+  EXPECT_NE(test::read_file(page).find("hybrid"), std::string::npos);
+  const ProcessResult table = ballflow({"compare", "latest", "--format", "csv"});
+  EXPECT_EQ(table.exit_code, 0) << table.err;
+  EXPECT_EQ(std::count(table.out.begin(), table.out.end(), '\n'), 1 + 4) << table.out;
   const ProcessResult status = ballflow({"status", "--store", store});
   EXPECT_EQ(status.exit_code, 0) << status.err;
   EXPECT_NE(status.out.find("Greedy"), std::string::npos) << status.out;

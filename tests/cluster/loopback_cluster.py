@@ -37,20 +37,24 @@ class Cluster:
         self.slurm("up", "4", "2", str(self.port))
 
     def slurm(self, action: str, *more: str) -> None:
-        subprocess.run([HERE / "loopback_slurm", action, self.root / "slurm", *more], env=self.environment, check=True)
+        words = [HERE / "loopback_slurm", action, self.root / "slurm", *more]
+        subprocess.run(words, env=self.environment, check=True)
 
     def run(self, *words: str, cache: str = "submitter", code: int | tuple[int, ...] = 0, **more: str) -> str:
         command = [self.program, "--plugin", self.plugin, *words]
         environment = {**self.environment, **more, "BALLFLOW_CACHE_SIZE": "none"}
         # Of jobs it would be the cache of all of them: theirs is that of their node, below.
-        words_of_cache = ["--cache", str(self.root / cache)] if words[0] in ("submit", "sweep", "run", "plan") else []
-        done = subprocess.run([*command, *words_of_cache], env=environment, capture_output=True, text=True)
+        if words[0] in ("submit", "sweep", "run", "plan"):
+            command += ["--cache", str(self.root / cache)]
+        done = subprocess.run(command, env=environment, capture_output=True, text=True)
         codes = code if isinstance(code, tuple) else (code,)
-        assert done.returncode in codes, f"{words}: exit code {done.returncode}\n{done.stdout[-3000:]}\n{done.stderr[-3000:]}"
+        said = f"{done.stdout[-3000:]}\n{done.stderr[-3000:]}"
+        assert done.returncode in codes, f"{words}: exit code {done.returncode}\n{said}"
         return done.stdout + done.stderr
 
     def submit(self, graph: Path, *words: str, code: int | tuple[int, ...] = 0, **more: str) -> str:
-        return self.run("submit", str(graph), "--store", str(self.store), "--patience", "2", *words, code=code, **more)
+        settings = ("--store", str(self.store), "--patience", "2")
+        return self.run("submit", str(graph), *settings, *words, code=code, **more)
 
     def ask(self, *words: str) -> str:
         return subprocess.run(words, env=self.environment, capture_output=True, text=True, check=True).stdout
@@ -81,16 +85,23 @@ class Cluster:
     def running(self) -> list[str]:
         return self.ask("squeue", "--noheader", "--array", "--states=R", "--format=%i").split()
 
+    def forget(self) -> None:
+        """Nothing has ever run: an empty store, and empty caches of nodes and of the submitter."""
+        for folder in (*self.store.iterdir(), self.root / "submitter", *self.root.glob("ballflow-*")):
+            shutil.rmtree(folder, ignore_errors=True)
+
     def local(self, graph: Path, *words: str) -> dict[str, str]:
         out = self.root / "local"
-        self.run("run", str(graph), "--out", str(out), "--report", str(out) + ".json", "--quiet", *words, cache="alone")
+        settings = ("--out", str(out), "--report", str(out) + ".json", "--quiet")
+        self.run("run", str(graph), *settings, *words, cache="alone")
         return digests(Path(str(out) + ".json"))
 
     def results(self, graph: Path, *words: str) -> dict[str, str]:
         """What the store has, as a run on a machine of its own finds it; nothing is computed."""
         report = self.root / "results.json"
         cache = f"fresh-{random.random()}"
-        self.run("run", str(graph), "--upstream", str(self.store), "--report", str(report), "--quiet", *words, cache=cache)
+        settings = ("--upstream", str(self.store), "--report", str(report), "--quiet")
+        self.run("run", str(graph), *settings, *words, cache=cache)
         nodes = json.loads(report.read_text())["nodes"]
         computed = [path for path, node in nodes.items() if node["status"] == "run"]
         assert not computed, f"not in the store: {computed[:3]}"
@@ -99,7 +110,8 @@ class Cluster:
 
 def digests(report: Path) -> dict[str, str]:
     nodes = json.loads(report.read_text())["nodes"]
-    return {f"{path}.{port}": output["digest"] for path, node in nodes.items() for port, output in node["outputs"].items()}
+    return {f"{path}.{port}": output["digest"]
+            for path, node in nodes.items() for port, output in node["outputs"].items()}
 
 
 @contextlib.contextmanager

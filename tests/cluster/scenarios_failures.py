@@ -20,6 +20,8 @@ def dies(here: Cluster) -> None:
     expected = here.local(graph)
     out = here.submit(graph, "--unit-seconds", "1", "--watch", code=5, BALLFLOW_TOY_DIE="2001")
     assert "nothing came of the jobs" in out or "still missing" in out, out
+    # What needs it not is done: all but the step, its metric, the report of its model and the sum.
+    assert "29 nodes are done" in here.submit(graph, "--dry-run"), "others complete"
     # What the process said last, and where the rest is.
     said = here.run("status", "--store", str(here.store))
     assert "toy: 2001 is one too many" in said, said
@@ -65,6 +67,19 @@ def cancelled(here: Cluster) -> None:
     here.wait(lambda: bool(here.running()))
     here.ask("scancel", here.running()[0])
     here.submit(graph, "--unit-seconds", "2", "--watch")
+    assert here.results(graph) == expected
+
+
+def held(here: Cluster) -> None:
+    """Jobs that the scheduler holds: the same submission once more releases them."""
+    graph = write_graph(here.root / "graph", 4, 3, 0.2)
+    expected = here.local(graph)
+    here.submit(graph, "--unit-seconds", "2")
+    waiting = here.ask("squeue", "--noheader", "--states=PD", "--format=%A").split()
+    here.ask("scontrol", "hold", ",".join(waiting))
+    assert "still going" in here.submit(graph, "--unit-seconds", "2"), "it has jobs"
+    here.wait(here.is_idle)
+    assert "nothing to submit" in here.submit(graph)
     assert here.results(graph) == expected
 
 

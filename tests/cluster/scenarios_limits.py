@@ -11,7 +11,7 @@ from toy_graphs import write_graph, write_loop
 
 
 def out_of_memory(here: Cluster) -> None:
-    """A node that takes more memory than it says: its unit is killed, and gets twice as much until it is enough."""
+    """A node that takes more memory than it says: its unit is killed, and gets twice as much till it is enough."""
     graph = write_graph(here.root / "graph", 2, 2, 0.01, megabytes=700)
     expected = here.local(graph)
     # Slurm looks once a second how much its jobs take.
@@ -20,9 +20,16 @@ def out_of_memory(here: Cluster) -> None:
     asked = sorted({array["memory"] for run in here.submissions() for array in run["arrays"]})
     assert asked[-1] == 2 * asked[0], asked
     rounds = len(here.submissions())
-    print(f"out_of_memory: {' and '.join(f'{memory >> 20} MB' for memory in asked)} in {rounds} rounds; ends of jobs: "
-          f"{', '.join(here.ends())}")
+    sizes = " and ".join(f"{memory >> 20} MB" for memory in asked)
+    print(f"out_of_memory: {sizes} in {rounds} rounds; ends of jobs: {', '.join(here.ends())}")
     assert rounds == 2, rounds
+    # Without --watch, by submitting the same once more.
+    here.forget()
+    for _ in range(2):
+        here.submit(graph, "--unit-seconds", "1", BALLFLOW_TOY_HOLD="4")
+        here.wait(here.is_idle)
+    assert "nothing to submit" in here.submit(graph)
+    assert here.results(graph) == expected
 
 
 def steps_done(clocks: Path) -> int:
@@ -71,8 +78,8 @@ def loop_out_of_time(here: Cluster) -> None:
     after = resumed(here)
     assert after and after == sorted(set(after)), after
     done = steps_done(clocks)
-    print(f"loop_out_of_time: 150 s of iterations within limits of 120 s: {len(after) + 1} jobs, which went on after {after}, "
-          f"{done} iterations computed for 300, {time.monotonic() - start:.0f} s")
+    print(f"loop_out_of_time: 150 s of iterations within limits of 120 s: {len(after) + 1} jobs, which went on "
+          f"after {after}, {done} iterations computed for 300, {time.monotonic() - start:.0f} s")
     assert 300 <= done <= 300 + len(after), done
 
 

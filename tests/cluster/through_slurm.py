@@ -2,8 +2,8 @@
 
 usage: through_slurm.py PROGRAM PLUGIN SCENARIO...
 
-Exit code 77: Slurm is not here (tools/setup cluster installs it). As root, all scenarios but those that mount disks are run
-by the user nobody, with daemons of its own: what users of a cluster may do is enough.
+Exit code 77: Slurm is not here (tools/setup cluster installs it). As root, all scenarios but those that mount disks
+are run by the user nobody, with daemons of its own: what users of a cluster may do is enough.
 """
 
 from __future__ import annotations
@@ -24,8 +24,9 @@ from loopback_cluster import HERE, cluster
 PROGRAMS = ("slurmctld", "slurmd", "munged", "sbatch", "squeue")
 SCENARIOS = {f.__name__: f for f in (
     work.small, work.large, work.busy, work.table, work.real, work.snakemake,
-    failures.dies, failures.clock_wrong, failures.cancelled, failures.node_killed, failures.slurmd_killed,
-    failures.controller_restarted, failures.submitter_killed, failures.disk_full, failures.damaged,
+    failures.dies, failures.clock_wrong, failures.cancelled, failures.held, failures.node_killed,
+    failures.slurmd_killed, failures.controller_restarted, failures.submitter_killed, failures.disk_full,
+    failures.damaged,
     limits.out_of_memory, limits.loop_signalled, limits.loop_out_of_time, limits.shows_progress)}
 
 AS_ROOT = {"disk_full"}
@@ -34,7 +35,8 @@ AS_ROOT = {"disk_full"}
 def is_open_to_all(path: str) -> bool:
     """Whether everybody may read the file, and get there."""
     place = Path(path).resolve()
-    return all(folder.stat().st_mode & 0o001 for folder in place.parents) and bool(place.stat().st_mode & 0o004)
+    reachable = all(folder.stat().st_mode & 0o001 for folder in place.parents)
+    return reachable and bool(place.stat().st_mode & 0o004)
 
 
 def become_nobody() -> None:

@@ -13,7 +13,8 @@ def write_graph(folder: Path, models: int, variants: int, seconds: float, megaby
         "params": {"add": {"kind": "number", "doc": "what is added"}},
         "inputs": {"from": {"type": "toy.Count"}},
         "nodes": {
-            "prune": {"type": "toy.Step", "params": {"add": "${add}", "seconds": seconds, "megabytes": megabytes},
+            "prune": {"type": "toy.Step",
+                      "params": {"add": "${add}", "seconds": seconds, "megabytes": megabytes},
                       "inputs": {"from": "inputs.from"}},
             "metric": {"type": "toy.Step", "params": {"seconds": seconds}, "inputs": {"from": "prune.count"}},
         },

@@ -105,6 +105,28 @@ TEST_F(KeyTest, the_key_is_the_hash_of_its_manifest) {
   }
 }
 
+TEST_F(KeyTest, threads_memory_and_earlier_attempts_do_not_enter_and_neither_does_the_host) {
+  const Dag dag = diamond(1.5, 2);
+  const auto run_with = [&](unsigned threads, std::uint64_t memory, const std::shared_ptr<Store>& where) {
+    RunOptions options;
+    options.threads = threads;
+    options.memory_bytes = memory;
+    Runner runner(dag, registry, where, options, events);
+    return runner.run();
+  };
+  const RunResult first = run_with(1, std::uint64_t{1} << 30, store());
+  const RunResult again = run_with(3, std::uint64_t{5} << 30, store());
+  EXPECT_EQ(statuses(again), std::vector<NodeStatus>(dag.nodes.size(), hit));
+  const std::set<std::string> fields{"format", "node", "version", "libraries", "params", "seed", "inputs"};
+  for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
+    EXPECT_EQ(first.nodes[i].manifest, again.nodes[i].manifest);
+    std::set<std::string> found;
+    const Json manifest = Json::parse(first.nodes[i].manifest);
+    for (const auto& [name, value] : manifest.items()) found.insert(name);
+    EXPECT_EQ(found, fields) << "what enters is said above, and nothing else does";
+  }
+}
+
 TEST_F(KeyTest, minus_zero_is_zero_and_whole_numbers_equal_themselves) {
   Dag dag;
   node(dag, "a", "Source", {}, {{"value", 0.0}});
