@@ -3254,6 +3254,7 @@ def subtract(
 class SurfaceBallsOutputs(NamedTuple):
     balls: Balls
     shrunk: Balls
+    points: PointSet
     report: SurfaceBallsReport
 
 def surface_balls(
@@ -3262,7 +3263,9 @@ def surface_balls(
     radius: float = 0.0,
     shrink: float = 0.3,
     floor: float = 0.7,
+    uneven_floor: float = 0.9,
     smallest: float = 0.0,
+    by_place: bool = False,
     cache: Cache = False,
     threads: int = 0,
     memory: Union[str, int, None] = None,
@@ -3271,13 +3274,13 @@ def surface_balls(
 ) -> SurfaceBallsOutputs:
     """Balls around samples, as large as the local feature size allows.
 
-    Ball i has its centre at sample i and the radius rho D^, where D^ is the distance to the nearest pole,
-      but at least floor times the distance to the third neighbour: where the spacing is as large as the
-      feature size, balls of radius rho D^ do not meet. Pruning covers the samples by shrunken copies
-      (output shrunk) and keeps the balls themselves (output balls). Larger copies keep fewer balls. The
-      node says on which ground the union of the kept balls has the topology of the surface: proven for very
-      small copies of dense samples, supported by what the thesis reports, or experience (heuristic), as
-      when balls were raised to the floor or D^ is from fewer poles than all.
+    Every sample has a ball around it of radius rho D^, where D^ is the distance to the nearest pole, but at
+      least floor times the distance to the third neighbour: where the spacing is as large as the feature
+      size, balls of radius rho D^ do not meet. Pruning covers the samples by shrunken copies (output
+      shrunk) and keeps the balls themselves (output balls). Larger copies keep fewer balls. The node says
+      on which ground the union of the kept balls has the topology of the surface: proven for very small
+      copies of dense samples, supported by what the thesis reports, or experience (heuristic), as when
+      balls were raised to the floor or D^ is from fewer poles than all.
 
     When not to use it: the inside of a solid is wanted: these balls follow the surface.
 
@@ -3287,6 +3290,7 @@ def surface_balls(
     Outputs:
         balls (Balls): n balls, each defined by its sample
         shrunk (Balls): n shrunken copies, which have to cover the samples
+        points (PointSet): n samples, in the order of the balls: what the copies have to cover
         report (SurfaceBallsReport): rho, rho_bar, and the ground on which the union has the topology of the
           surface
 
@@ -3297,7 +3301,13 @@ def surface_balls(
           most radius: the larger, the fewer balls are kept; 0 keeps all
         floor (number, default 0.7, times the distance to the third neighbour, >= 0.0, <= 10.0): no ball is
           smaller; 1.5 for noise as large as the spacing, larger ones bridge gaps
+        uneven_floor (number, default 0.9, times the distance to the third neighbour, >= 0.0, <= 10.0): at
+          least this floor where part of the cloud is too coarse: where at 2 % of the samples the third
+          neighbour is farther than .8 D^ and twice as far as at half of the samples, and at no more than
+          half of the samples farther than .8 D^
         smallest (number, default 0.0, model units, >= 0.0): no ball is smaller
+        by_place (boolean, default false): balls in an order of their places, not of the samples: pruning,
+          which breaks ties by number, then keeps the same ones of permuted and of mirrored samples
 
     Sources: kornberger2010, 4.5, 4.7 and 4.9.3; Theorem 4.14; aichholzer2009, surface balls
     """

@@ -239,5 +239,30 @@ TEST(surface_mesh, of_clouds_that_it_gets_wrong_says_so) {
   EXPECT_TRUE(knot.tell("too coarse")) << knot.all;
 }
 
+TEST(surface_balls, are_larger_and_say_so_where_a_cloud_is_thinner_than_elsewhere_and_than_its_features) {
+  // 100 samples on a line, a tenth of D^ apart; `few` of them far from others, at places with this D^.
+  const auto told = [](int few, double pole_distance, bool backwards) {
+    std::vector<Vec3> points;
+    std::vector<double> poles, third;
+    for (int i = 0; i < 100; ++i) {
+      const int k = backwards ? 99 - i : i;
+      points.push_back({1.0 * k, 0, 0});
+      poles.push_back(k < few ? pole_distance : 1);
+      third.push_back(k < few ? 1 + 0.1 * k : 0.1);
+    }
+    Warnings warnings;
+    const SurfaceBalls made = surface_balls({points, poles, third}, {}, warnings);
+    const double floor = warnings.tell("elsewhere") ? 0.9 : 0.7;
+    for (std::size_t i = 0; i < 100; ++i)
+      EXPECT_DOUBLE_EQ(made.balls.radii[i], std::max(0.56 * poles[i], floor * third[i])) << i;
+    return warnings.all;
+  };
+  EXPECT_EQ(told(2, 1, false), "");
+  EXPECT_EQ(told(3, 2, false), "") << "there the features are as large";
+  EXPECT_NE(told(3, 1, false).find("at 3 of 100 samples, around (2, 0, 0)"), std::string::npos)
+      << told(3, 1, false);
+  EXPECT_EQ(told(3, 1, true), told(3, 1, false));
+}
+
 }  // namespace
 }  // namespace ballflow::geometry

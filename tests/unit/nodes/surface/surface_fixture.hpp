@@ -34,16 +34,16 @@ struct Cloud {
 };
 
 /// The nodes of reconstruct.json in a row, without robustness.
-inline Cloud cloud_of(const PointSet& points, double shrink = 0) {
+inline Cloud cloud_of(const PointSet& points, double shrink = 0, bool by_place = false) {
   Cloud cloud;
   cloud.points = {points.points, {}};
   const PoleSet vertices = voronoi_poles(cloud.points, {});
   cloud.poles = label_poles(vertices, {}, {.method = LabelMethod::angle}).poles;
   cloud.size = local_feature_size(cloud.points, vertices);
-  const SurfaceBalls balls = surface_balls(cloud.size, {.shrink = shrink});
+  const SurfaceBalls balls = surface_balls(cloud.size, {.shrink = shrink, .by_place = by_place});
   cloud.kept = balls.balls;
   if (shrink > 0) {
-    const CoverMatrix matrix = cover_matrix(balls.shrunk, cloud.points);
+    const CoverMatrix matrix = cover_matrix(balls.shrunk, balls.points);
     cloud.kept = select_balls(greedy(matrix.cover, {.mode = GreedyMode::until_covered}), balls.balls, {});
   }
   cloud.diagram = power_diagram(cloud.kept, {}, no_monitor());

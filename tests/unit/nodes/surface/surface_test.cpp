@@ -146,6 +146,21 @@ TEST(surface_balls, have_the_radii_that_the_formula_says) {
   EXPECT_THROW(surface_balls(size, {.radius = -1}), InputError);
 }
 
+TEST(surface_balls, by_place_are_the_same_ones_and_know_their_samples) {
+  const LocalFeatureSize size{{{3, 0, 0}, {-1, 0, 0}, {2, 5, 0}, {2, -4, 0}}, {1, 2, 3, 4}, {1, 1, 1, 1}};
+  const SurfaceBalls given = surface_balls(size, {}), found = surface_balls(size, {.by_place = true});
+  EXPECT_EQ(given.points.points, size.points);
+  EXPECT_EQ(found.points.points, (Array<Vec3>{{-1, 0, 0}, {2, -4, 0}, {2, 5, 0}, {3, 0, 0}}));
+  EXPECT_EQ(found.balls.centers, found.points.points);
+  EXPECT_EQ(found.balls.defining_samples, (Array<std::int32_t>{1, 3, 2, 0}));
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto sample = static_cast<std::size_t>(found.balls.defining_samples[i]);
+    EXPECT_EQ(found.balls.radii[i], given.balls.radii[sample]);
+    EXPECT_EQ(found.shrunk.radii[i], given.shrunk.radii[sample]);
+    EXPECT_EQ(found.shrunk.samples_of(i)[0], static_cast<std::int32_t>(i));
+  }
+}
+
 TEST(surface_balls, of_fewer_poles_than_all_are_heuristic) {
   LocalFeatureSize size{{{0, 0, 0}, {1, 0, 0}}, {0.5, 2.0}, {1.0, 1.0}};
   size.fewer_poles = 1;
