@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -79,7 +80,7 @@ struct BlockHits {
 // Scans need 20 to 60; but where all samples are nearly as far from a ball as its radius, as on a sphere, it
 // has a hit in every leaf, and is asked again.
 constexpr std::int64_t hits_per_ball = 128;
-constexpr std::int64_t most_hits = std::int64_t{1} << 24;  // 128 MB in all
+constexpr std::int64_t most_hits = std::int64_t{1} << 22;  // 32 MB in all
 
 std::vector<std::int32_t> numbers(std::size_t count) {
   std::vector<std::int32_t> ids(count);
@@ -109,6 +110,21 @@ Balls with_points(const Balls& balls, const PointSet& points, const std::vector<
     offsets.push_back(static_cast<std::int64_t>(defining.size()));
   }
   return {std::move(centers), std::move(radii), std::move(offsets), std::move(defining)};
+}
+
+void report_uncovered(const std::vector<std::int32_t>& uncovered, const PointSet& points,
+                      UncoveredPolicy policy, Monitor& monitor) {
+  if (uncovered.empty()) return;
+  const std::string cause = how_many(uncovered, points.points.size());
+  if (policy == UncoveredPolicy::error) {
+    const std::int32_t first = uncovered.front();
+    throw InputError(cause + ", the first is sample " + std::to_string(first) + " at " +
+                         coordinates(points.points[static_cast<std::size_t>(first)]),
+                     "enlarge the balls, or set uncovered to ball or report");
+  }
+  monitor.warn(cause + (policy == UncoveredPolicy::ball
+                            ? "; each got a ball of radius 0, a component of its own"
+                            : ": they are left out and listed; sample more densely to cover them"));
 }
 
 void require_memory(std::int64_t entries, const CoverMatrixOptions& options, Monitor& monitor) {
@@ -160,9 +176,10 @@ CoverMatrix cover_matrix(const Balls& balls, const PointSet& points, const Cover
                          Monitor& monitor) {
   require_coverable(balls, points);
   const std::size_t m = balls.size(), n = points.points.size();
-  const SampleTree tree(points.points);
+  std::optional<SampleTree> sample_tree(points.points), ball_tree;
+  const SampleTree& tree = *sample_tree;
   monitor.step(0.05);
-  const SampleTree ball_tree(balls.centers);
+  ball_tree.emplace(balls.centers);
   monitor.step(0.1);
 
   // Defining samples that the predicate misses by rounding are few, and are the same in both passes.
@@ -172,7 +189,7 @@ CoverMatrix cover_matrix(const Balls& balls, const PointSet& points, const Cover
     }
   };
 
-  const std::vector<std::int32_t>& order = ball_tree.order();
+  const std::vector<std::int32_t>& order = ball_tree->order();
   const auto query = [&](std::size_t b, BlockHits& found, auto&& answered) {
     found.hits.clear();
     found.ends.clear();
@@ -186,24 +203,32 @@ CoverMatrix cover_matrix(const Balls& balls, const PointSet& points, const Cover
   std::vector<std::int64_t> offsets(m + 1);
   std::vector<BlockHits> kept(blocks_of(m, block));
   std::atomic<std::int64_t> room{std::min(most_hits, hits_per_ball * static_cast<std::int64_t>(m))};
+  std::atomic<std::int64_t> counted{0};  // the matrix is too large once these are: nothing else is asked then
   tbb::enumerable_thread_specific<BlockHits> asked;
   for_each_block(m, block, monitor, 0.1, 0.4, [&](std::size_t b, std::size_t, std::size_t) {
+    if (counted > options.full_entries) return;
     BlockHits& found = asked.local();
+    std::int64_t sum = 0;
     query(b, found, [&](std::size_t i, std::int64_t count) {
       for_each_missed(i, squared_reach(balls.radii[i]), [&](std::int32_t) { ++count; });
       offsets[i + 1] = count;
+      sum += count;
     });
+    counted += sum;
     const auto size = static_cast<std::int64_t>(found.hits.size());
     if (room.fetch_sub(size) >= size) kept[b] = found;
   });
-  const std::int64_t longest = *std::max_element(offsets.begin(), offsets.end());
-  for (std::size_t i = 0; i < m; ++i) offsets[i + 1] += offsets[i];
-  const std::int64_t entries = offsets[m];
-  if (entries > options.full_entries) {
-    kept.clear();
+  if (counted > options.full_entries) {
+    kept = {};
+    offsets = {};
+    sample_tree.reset();
+    ball_tree.reset();
     PartMonitor rest(monitor, 0.4, 1);
     return large_cover_matrix(balls, points, options, rest);
   }
+  const std::int64_t longest = *std::max_element(offsets.begin(), offsets.end());
+  for (std::size_t i = 0; i < m; ++i) offsets[i + 1] += offsets[i];
+  const std::int64_t entries = offsets[m];
   require_memory(entries, options, monitor);
 
   // Not initialised, and with room for the rows of uncovered samples; untouched pages cost nothing.
@@ -248,15 +273,10 @@ CoverMatrix cover_matrix(const Balls& balls, const PointSet& points, const Cover
   CoverState& cover = result.cover;
   std::size_t total = static_cast<std::size_t>(entries);
   std::vector<std::int32_t> column_ids = numbers(n);
+  report_uncovered(uncovered, points, options.uncovered, monitor);
   if (uncovered.empty()) {
     result.balls = balls;
-  } else if (options.uncovered == UncoveredPolicy::error) {
-    const std::int32_t first = uncovered.front();
-    throw InputError(how_many(uncovered, n) + ", the first is sample " + std::to_string(first) + " at " +
-                         coordinates(points.points[static_cast<std::size_t>(first)]),
-                     "enlarge the balls, or set uncovered to ball or report");
   } else if (options.uncovered == UncoveredPolicy::ball) {
-    monitor.warn(how_many(uncovered, n) + "; each got a ball of radius 0, a component of its own");
     result.balls = with_points(balls, points, uncovered);
     for (const std::int32_t s : uncovered) {
       columns[total++] = s;
@@ -264,8 +284,6 @@ CoverMatrix cover_matrix(const Balls& balls, const PointSet& points, const Cover
     }
     uncovered.clear();
   } else {
-    monitor.warn(how_many(uncovered, n) +
-                 ": they are left out and listed; sample more densely to cover them");
     result.balls = balls;
     std::vector<std::int32_t> number(n, -1);
     column_ids.clear();

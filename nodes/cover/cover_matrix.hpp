@@ -36,7 +36,8 @@ struct CoverMatrix {
 /// be
 ///   made of, and its bound has a certificate (large_cover_matrix.hpp).
 /// - Rows ascend; the result does not depend on the number of threads.
-/// - Time O((m + n) log n + entries), memory 4 bytes per entry, 70 bytes per sample, at most 1.2 KB per ball.
+/// - Time O((m + n) log n + entries), memory 4 bytes per entry, 70 bytes per sample, 40 per ball, and at most
+///   32 MB.
 ///
 /// Refused with InputError: coordinates or radii beyond 1e140, defining samples that are not in `points`, a
 /// matrix of more than `max_entries` entries or larger than the memory (base/memory.hpp), uncovered samples
@@ -46,6 +47,10 @@ CoverMatrix cover_matrix(const Balls& balls, const PointSet& points, const Cover
 
 /// `balls` and one ball of radius 0 at each of `samples`, which it is defined by.
 Balls with_points(const Balls& balls, const PointSet& points, const std::vector<std::int32_t>& samples);
+
+/// Samples in no ball (ascending): refused with UncoveredPolicy::error, else a warning, where there are any.
+void report_uncovered(const std::vector<std::int32_t>& uncovered, const PointSet& points,
+                      UncoveredPolicy policy, Monitor& monitor);
 
 /// Refuses a matrix of more than `max_entries` entries or larger than the memory that the monitor grants.
 void require_memory(std::int64_t entries, const CoverMatrixOptions& options, Monitor& monitor);

@@ -19,14 +19,15 @@ struct CoverMatrixNode {
   CoverMatrixOptions options;
 
   static void declare(NodeDecl<CoverMatrixNode>& d) {
-    d.id("CoverMatrix", 3).summary("Find out which ball covers which sample.");
+    d.id("CoverMatrix", 4).summary("Find out which ball covers which sample.");
     d.doc(
         "Entry (i, j) of the matrix is 1 iff sample j lies in ball i: |c - s|^2 <= r^2 (1 + 2^-30), or the "
         "sample "
         "defines the ball. A matrix of more than `full_entries` entries is not made: a lower bound with a "
         "certificate comes first, from few samples and all balls, and its prices tell which balls a good "
         "cover "
-        "may be made of; these alone are rows. Accepts any balls, also overlapping, equal or empty ones. "
+        "may be made of; these alone are rows, without those inside others, and columns that contain others "
+        "are left out. Accepts any balls, also overlapping, equal or empty ones. "
         "Refuses coordinates "
         "beyond "
         "1e140 and defining samples that are not among the points.");

@@ -18,7 +18,7 @@ class CoverGraph {
   CoverGraph(const Part& part, std::span<const std::int32_t> cover, Monitor& monitor)
       : part_(part),
         cover_(cover),
-        by_column_(lists_of<std::int32_t>(part.columns.size(),
+        by_column_(lists_of<std::int32_t>(part.column_ids.size(),
                                           [&](const auto& put) {
                                             for (std::size_t k = 0; k < cover.size(); ++k) {
                                               for (const std::int32_t c : part.rows[index_of(cover[k])]) {
@@ -100,8 +100,8 @@ std::vector<std::int32_t> regions_of_cover(const Part& part, std::span<const std
 
 RegionColumns columns_of_regions(const Part& part, std::span<const std::int32_t> cover,
                                  std::span<const std::int32_t> region_of_cover, Monitor& monitor) {
-  RegionColumns regions{std::vector<std::int32_t>(part.columns.size(), -1)};
-  std::vector<std::uint8_t> shared(part.columns.size());
+  RegionColumns regions{std::vector<std::int32_t>(part.column_ids.size(), -1), 0, {}};
+  std::vector<std::uint8_t> shared(part.column_ids.size());
   Lookout look(monitor);
   for (std::size_t k = 0; k < cover.size(); ++k) {
     const std::int32_t own = region_of_cover[k];
@@ -113,28 +113,40 @@ RegionColumns columns_of_regions(const Part& part, std::span<const std::int32_t>
     }
   }
   regions.shared = static_cast<std::size_t>(std::count(shared.begin(), shared.end(), 1));
+  const std::int32_t last =
+      region_of_cover.empty() ? -1 : *std::max_element(region_of_cover.begin(), region_of_cover.end());
+  regions.rows = lists_of<std::int32_t>(static_cast<std::size_t>(last + 1), [&](const auto& put) {
+    std::vector<std::int32_t> met_by(static_cast<std::size_t>(last + 1), -1);  // the last row of each region
+    for (std::size_t i = 0; i < part.rows.size(); ++i) {
+      const auto row = static_cast<std::int32_t>(i);
+      look(part.rows.degree(i));
+      for (const std::int32_t c : part.rows[i]) {
+        const std::int32_t region = regions.of_column[index_of(c)];
+        if (region >= 0 && std::exchange(met_by[index_of(region)], row) != row) put(index_of(region), row);
+      }
+    }
+  });
   return regions;
 }
 
 Part region_part(const Part& part, const RegionColumns& regions, std::int32_t region, Monitor& monitor) {
   Part result;
-  std::vector<std::int32_t> number(part.columns.size(), -1);
-  std::vector<std::uint8_t> met(part.rows.size());
+  std::vector<std::int32_t> number(part.column_ids.size(), -1);
   Lookout look(monitor);
-  for (std::size_t c = 0; c < part.columns.size(); ++c) {
+  for (std::size_t c = 0; c < part.column_ids.size(); ++c) {
     if (regions.of_column[c] != region) continue;
     number[c] = static_cast<std::int32_t>(result.column_ids.size());
     result.column_ids.push_back(static_cast<std::int32_t>(c));
-    look(part.columns.degree(c));
-    for (const std::int32_t i : part.columns[c]) met[index_of(i)] = 1;
   }
   std::vector<std::int64_t> offsets{0};
   std::vector<std::int32_t> entries;
-  for (std::size_t i = 0; i < part.rows.size(); ++i) {
-    if (met[i] == 0) continue;
-    look(part.rows.degree(i));
-    result.row_ids.push_back(static_cast<std::int32_t>(i));
-    for (const std::int32_t c : part.rows[i]) {
+  std::size_t most = 0;
+  for (const std::int32_t i : regions.rows[index_of(region)]) most += part.rows.degree(index_of(i));
+  entries.reserve(most);  // growing would take as much again; what is not used is never touched
+  for (const std::int32_t i : regions.rows[index_of(region)]) {
+    look(part.rows.degree(index_of(i)));
+    result.row_ids.push_back(i);
+    for (const std::int32_t c : part.rows[index_of(i)]) {
       if (number[index_of(c)] >= 0) entries.push_back(number[index_of(c)]);
     }
     offsets.push_back(static_cast<std::int64_t>(entries.size()));

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cover/greedy_rows.hpp"
+#include "cover/matrix_blocks.hpp"
 #include "cover/residual.hpp"
 #include "cover/sample_counts.hpp"
 
@@ -22,6 +23,8 @@ CoverMatrixOptions without_limit(CoverMatrixOptions options) {
   options.full_entries = options.max_entries = std::numeric_limits<std::int64_t>::max();
   return options;
 }
+
+constexpr std::size_t block = 4096;  // balls or samples; of matrix_blocks.hpp
 
 /// What a ball covers: both numbers from one sum, as no ball costs more than 1.
 struct Content {
@@ -98,34 +101,34 @@ std::vector<std::int32_t> candidate_balls(const Balls& balls, const PointSet& po
 
 CoverMatrix large_cover_matrix(const Balls& balls, const PointSet& points, const CoverMatrixOptions& options,
                                Monitor& monitor) {
-  PartMonitor bounding(monitor, 0, 0.7), choosing(monitor, 0.7, 0.85), making(monitor, 0.85, 1);
+  PartMonitor bounding(monitor, 0, 0.7), choosing(monitor, 0.7, 0.8), thinning(monitor, 0.8, 0.95),
+      making(monitor, 0.95, 1);
   const LazyBound bound = lazy_bound(balls, points, {}, bounding);
+  report_uncovered(bound.uncovered, points, options.uncovered, monitor);
   const Ids candidates = candidate_balls(balls, points, bound, {}, choosing);
-  CoverMatrixOptions rest = options;
-  rest.full_entries = std::numeric_limits<std::int64_t>::max();
-  CoverMatrix result = cover_matrix(select(balls, candidates), points, rest, making);
+  // Balls of radius 0 for uncovered samples come after all others, here and in the result.
+  const bool added = options.uncovered == UncoveredPolicy::ball;
+  const Ids none;
+  const Balls rows = with_points(select(balls, candidates), points, added ? bound.uncovered : none);
+  const Ids samples = minimal_samples(rows, points, block, thinning);
+  CoverMatrix result{matrix_of_maximal_rows(rows, points, samples, block, making), {}};
   CoverState& cover = result.cover;
+  require_memory(static_cast<std::int64_t>(cover.nnz()), options, monitor);
   Ids row_ids;
-  for (std::size_t i = 0; i < cover.rows(); ++i) {
-    // After the candidates come balls of radius 0, which cover_matrix made for uncovered samples.
-    row_ids.push_back(i < candidates.size()
-                          ? candidates[i]
-                          : static_cast<std::int32_t>(balls.size() + i - candidates.size()));
+  for (const std::int32_t i : cover.row_ids) {
+    row_ids.push_back(at(i) < candidates.size()
+                          ? candidates[at(i)]
+                          : static_cast<std::int32_t>(balls.size() + at(i) - candidates.size()));
   }
-  if (options.uncovered == UncoveredPolicy::ball) {
-    result.balls = with_points(balls, points, bound.uncovered);
-  } else {
-    result.balls = balls;
-  }
+  if (!added) cover.uncovered = bound.uncovered;
+  result.balls = with_points(balls, points, added ? bound.uncovered : none);
   cover.row_ids = std::move(row_ids);
   cover.balls = static_cast<std::int64_t>(result.balls.size());
-  // What the rows alone seemed to prove says nothing about all balls.
-  cover.lower_bound = -1;
-  cover.lower_bound_how = static_cast<std::uint8_t>(BoundHow::unknown);
   prove(cover, bound.certificate);
-  cover.left_out = static_cast<std::int64_t>(balls.size() - candidates.size());
+  cover.left_out = cover.balls - static_cast<std::int64_t>(cover.rows());
   monitor.note(std::to_string(candidates.size()) + " of " + std::to_string(balls.size()) +
-               " balls are candidates");
+               " balls are candidates, " + std::to_string(samples.size()) + " of " +
+               std::to_string(points.points.size()) + " samples are enough");
   return result;
 }
 

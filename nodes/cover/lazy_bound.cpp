@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <utility>
 
 #include "cover/components.hpp"
 #include "cover/cover_matrix.hpp"
 #include "cover/lagrangian_bound.hpp"
+#include "cover/matrix_blocks.hpp"
 #include "cover/reduce.hpp"
 #include "cover/sample_counts.hpp"
 
@@ -23,6 +23,7 @@ using Ids = std::vector<std::int32_t>;
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 constexpr std::int32_t whole = 1 << 20;  // of a fractional ball
+constexpr std::size_t balls_of_block = 4096;
 
 /// The listed samples and what the climbs have found about them.
 class Listed {
@@ -45,13 +46,10 @@ class Listed {
     std::sort(ids_.begin(), ids_.end());
   }
 
-  /// The matrix of the listed samples, reduced; columns are numbered as they are listed.
+  /// The matrix of the listed samples, reduced.
   CoverState reduced(Monitor& monitor) const {
-    const SampleSubset subset = sample_subset(balls_, points_, ids_);
-    CoverMatrixOptions options;
-    options.max_entries = std::numeric_limits<std::int64_t>::max();
-    PartMonitor first(monitor, 0, 0.5), second(monitor, 0.5, 1);
-    return reduce(cover_matrix(subset.balls, subset.points, options, first).cover, {}, second);
+    PartMonitor first(monitor, 0, 0.7), second(monitor, 0.7, 1);
+    return reduce(matrix_of_maximal_rows(balls_, points_, ids_, balls_of_block, first), {}, second);
   }
 
   /// Climbs from the prices of the round before, which it replaces. Returns how much of each ball the
@@ -129,15 +127,15 @@ class Listed {
     PricedGroups groups;
     for (std::size_t k = 0; k < state.certificate_samples.size(); ++k) {
       if (k > 0 && state.certificate_groups[k] != state.certificate_groups[k - 1]) groups.close();
-      groups.add(ids_[at(state.certificate_samples[k])], state.certificate_prices[k]);
+      groups.add(state.certificate_samples[k], state.certificate_prices[k]);
     }
     groups.close();
     return groups;
   }
 
  private:
-  std::int32_t sample_of(const CoverState& state, std::int32_t column) const {
-    return ids_[at(state.column_ids[at(column)])];
+  static std::int32_t sample_of(const CoverState& state, std::int32_t column) {
+    return state.column_ids[at(column)];
   }
 
   const Balls& balls_;

@@ -89,7 +89,7 @@ class Searches {
   /// Rows of the components that are still searched.
   double searched_rows() const {
     double rows = 0;
-    for (const auto& search : searches_) rows += search ? static_cast<double>(search->part().rows.size()) : 0;
+    for (const auto& search : searches_) rows += search ? static_cast<double>(search->row_ids().size()) : 0;
     return rows;
   }
 
@@ -110,7 +110,7 @@ class Searches {
     for (const auto& search : searches_) {
       if (!search) continue;
       const double all = search->begins_with_regions() ? steps / 2 : steps;
-      search->plan(all * static_cast<double>(search->part().rows.size()) / rows);
+      search->plan(all * static_cast<double>(search->row_ids().size()) / rows);
     }
   }
 
@@ -132,9 +132,9 @@ class Searches {
         return;
       }
       std::vector<std::int32_t> cover;
-      Part part = core(k, search->part(), search->best(), cover, monitor);
+      Part part = core(k, parts_.part(k, monitor), search->best(), cover, monitor);
       const double steps =
-          std::min({steps_per_row * static_cast<double>(search->part().rows.size()), max_steps,
+          std::min({steps_per_row * static_cast<double>(search->row_ids().size()), max_steps,
                     work / visited(part.rows.entries.size(), part.rows.size(), part.columns.size())});
       const std::int64_t forget = mean_weight_of_core * static_cast<std::int64_t>(part.columns.size());
       search = std::make_unique<RegionSearch>(std::move(part), cover, bound_of(k), seed_ + k, monitor,
@@ -152,7 +152,7 @@ class Searches {
       if (search->best().size() < rows_[k].size()) {
         rows_[k].clear();
         for (const std::int32_t i : search->best()) {
-          rows_[k].push_back(search->part().row_ids[static_cast<std::size_t>(i)]);
+          rows_[k].push_back(search->row_ids()[static_cast<std::size_t>(i)]);
         }
         std::sort(rows_[k].begin(), rows_[k].end());
       }

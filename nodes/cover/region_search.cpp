@@ -29,16 +29,17 @@ RegionSearch::RegionSearch(Part part, const std::vector<std::int32_t>& cover, st
   const auto searched_as_a_whole = [&] {
     if (cover.size() <= balls_of_region) return true;
     const auto region = regions_of_cover(part, cover, balls_of_region, mixed(seed, 0, 0), monitor);
-    return columns_of_regions(part, cover, region, monitor).shared > part.columns.size() / 4;
+    return columns_of_regions(part, cover, region, monitor).shared > part.column_ids.size() / 4;
   };
   if (searched_as_a_whole()) {
     whole_ = std::make_unique<WeightingSearch>(std::move(part), cover, bound, seed, monitor, weight_limit);
     return;
   }
   part_ = std::move(part);
+  part_.columns = {};  // regions have their own
   best_ = cover;
   std::sort(best_.begin(), best_.end());
-  weights_.assign(part_.columns.size(), 1);
+  weights_.assign(part_.column_ids.size(), 1);
 }
 
 void RegionSearch::cut(Monitor& monitor) {
@@ -70,7 +71,7 @@ void RegionSearch::take_weights() {
   for (const auto& region : regions_) {
     const std::vector<std::int32_t> weights = region->weights();
     for (std::size_t c = 0; c < weights.size(); ++c) {
-      weights_[static_cast<std::size_t>(region->part().column_ids[c])] = weights[c];
+      weights_[static_cast<std::size_t>(region->column_ids()[c])] = weights[c];
     }
   }
   regions_.clear();
@@ -78,20 +79,20 @@ void RegionSearch::take_weights() {
 
 void RegionSearch::run_regions(double steps, Monitor& monitor) {
   double rows = 0;
-  for (const auto& region : regions_) rows += static_cast<double>(region->part().rows.size());
+  for (const auto& region : regions_) rows += static_cast<double>(region->row_ids().size());
   tbb::parallel_for(std::size_t{0}, regions_.size(), [&](std::size_t r) {
-    const double share = static_cast<double>(regions_[r]->part().rows.size()) / rows;
+    const double share = static_cast<double>(regions_[r]->row_ids().size()) / rows;
     regions_[r]->run(static_cast<std::int64_t>(steps * share) + 1, monitor);
   });
   std::vector<std::int32_t> cover;
   for (const auto& region : regions_) {
     for (const std::int32_t i : region->best()) {
-      cover.push_back(region->part().row_ids[static_cast<std::size_t>(i)]);
+      cover.push_back(region->row_ids()[static_cast<std::size_t>(i)]);
     }
   }
   std::sort(cover.begin(), cover.end());
   cover.erase(std::unique(cover.begin(), cover.end()), cover.end());
-  cover = without_redundant(part_.rows, part_.columns.size(), cover, monitor);
+  cover = without_redundant(part_.rows, part_.column_ids.size(), cover, monitor);
   // Equal ones too: the next phase goes on where this one was.
   if (cover.size() <= best_.size()) best_ = std::move(cover);
 }
@@ -100,6 +101,7 @@ void RegionSearch::run(double share, Monitor& monitor) {
   const double before = std::exchange(made_, made_ + share);
   if (!whole_ && before >= share_of_regions) {
     take_weights();
+    part_.columns = transpose(part_.rows, part_.column_ids.size(), monitor);
     whole_ = std::make_unique<WeightingSearch>(std::move(part_), best_, bound_, mixed(seed_, phases, 0),
                                                monitor, weight_limit_, weights_);
   }

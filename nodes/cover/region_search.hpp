@@ -41,7 +41,8 @@ class RegionSearch {
   bool proven() const { return static_cast<std::int64_t>(best().size()) <= bound_; }
   /// The smallest cover met: rows of the part, ascending.
   const std::vector<std::int32_t>& best() const { return whole_ ? whole_->best() : best_; }
-  const Part& part() const { return whole_ ? whole_->part() : part_; }
+  /// Those of the part.
+  const std::vector<std::int32_t>& row_ids() const { return whole_ ? whole_->row_ids() : part_.row_ids; }
 
  private:
   void cut(Monitor& monitor);
@@ -49,7 +50,7 @@ class RegionSearch {
   /// Ends a phase: the weights that its regions gave to columns.
   void take_weights();
 
-  Part part_;  // empty when the component is searched as a whole
+  Part part_;  // without columns; empty when the component is searched as a whole
   std::int64_t bound_;
   std::uint64_t seed_;
   std::int64_t weight_limit_;

@@ -55,15 +55,16 @@ WeightingSearch::FullLists::FullLists(const Csr& lists, const std::vector<Id>& r
 WeightingSearch::WeightingSearch(Part part, const std::vector<std::int32_t>& cover, std::int64_t bound,
                                  std::uint64_t seed, Monitor& monitor, std::int64_t weight_limit,
                                  std::span<const std::int32_t> weights)
-    : part_(std::move(part)),
+    : row_ids_(std::move(part.row_ids)),
+      column_ids_(std::move(part.column_ids)),
       bound_(bound),
       random_(seed),
       weight_limit_(weight_limit),
-      gains_(part_.rows.size() + 1),
-      moved_(part_.rows.size()),
-      keepers_(part_.columns.size() + 1),
-      states_(part_.columns.size()),
-      slot_of_(part_.rows.size(), -1),
+      gains_(part.rows.size() + 1),
+      moved_(part.rows.size()),
+      keepers_(part.columns.size() + 1),
+      states_(part.columns.size()),
+      slot_of_(part.rows.size(), -1),
       row_in_(cover.size(), -1),
       keys_((cover.size() + block - 1) / block * block, no_key),
       group_key_(keys_.size() / group, no_key),
@@ -71,9 +72,11 @@ WeightingSearch::WeightingSearch(Part part, const std::vector<std::int32_t>& cov
       least_slot_(least_key_.size(), -1),
       best_(cover) {
   Lookout look(monitor);
-  NearOrder near = near_order(part_.rows, part_.columns, monitor);
-  rows_ = {part_.rows, near.row_rank, near.column_rank, look};
-  columns_ = {part_.columns, near.column_rank, near.row_rank, look};
+  NearOrder near = near_order(part.rows, part.columns, monitor);
+  rows_ = {part.rows, near.row_rank, near.column_rank, look};
+  part.rows = {};  // as large as what was made of it
+  columns_ = {part.columns, near.column_rank, near.row_rank, look};
+  part.columns = {};
   number_ = inverse(near.row_rank);
   keepers_.back() = Keepers(always);
   last_tick_ = static_cast<std::int32_t>(most_weight / std::max<std::int64_t>(states_.size(), 1));

@@ -29,7 +29,9 @@ class WeightingSearch {
   bool proven() const { return static_cast<std::int64_t>(best_.size()) <= bound_; }
   /// The smallest cover met: rows of the part, ascending.
   const std::vector<std::int32_t>& best() const { return best_; }
-  const Part& part() const { return part_; }
+  /// Those of the part; its matrix is not kept beside the search's own.
+  const std::vector<std::int32_t>& row_ids() const { return row_ids_; }
+  const std::vector<std::int32_t>& column_ids() const { return column_ids_; }
   /// The weight of each column.
   std::vector<std::int32_t> weights() const;
 
@@ -119,11 +121,11 @@ class WeightingSearch {
   void halve_weights(Lookout& look);
   std::size_t random_below(std::size_t n);
 
-  Part part_;
+  std::vector<std::int32_t> row_ids_, column_ids_;  // as in the part
   // Rows and columns are numbered by near_order() from here on.
   FullLists rows_, columns_;
-  std::vector<Id> number_;          // of each row, in part_
-  std::vector<Id> rank_of_column_;  // of each column of part_
+  std::vector<Id> number_;          // of each row, in the part
+  std::vector<Id> rank_of_column_;  // of each column of the part
   std::int64_t bound_;
   std::uint64_t random_;
   std::int32_t step_ = 0;

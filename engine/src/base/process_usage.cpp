@@ -1,5 +1,6 @@
 #include "base/process_usage.hpp"
 
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -24,5 +25,7 @@ std::uint64_t physical_memory_bytes() {
   return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
          static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
+
+void return_free_memory() { malloc_trim(0); }
 
 }  // namespace ballflow

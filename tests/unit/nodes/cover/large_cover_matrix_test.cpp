@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <atomic>
 #include <random>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "cover/greedy.hpp"
 #include "cover/ip_solve.hpp"
 #include "cover/lagrangian_bound.hpp"
 #include "cover/local_search.hpp"
+#include "cover/matrix_blocks.hpp"
 #include "cover/reduce.hpp"
 #include "cover/sample_counts.hpp"
 #include "cover/share_bound.hpp"
@@ -47,6 +50,29 @@ test::Scene scattered(std::mt19937& random, std::size_t samples, std::size_t bal
   scene.points.points = std::move(points);
   scene.balls = {std::move(centers), std::move(radii), std::move(offsets), std::move(defining)};
   return scene;
+}
+
+/// The rows of each column.
+std::vector<std::set<std::int32_t>> columns_of(const CoverState& state) {
+  std::vector<std::set<std::int32_t>> columns(state.cols());
+  for (std::size_t i = 0; i < state.rows(); ++i) {
+    for (const std::int32_t c : state.row(i)) {
+      columns[static_cast<std::size_t>(c)].insert(static_cast<std::int32_t>(i));
+    }
+  }
+  return columns;
+}
+
+/// Whether every column contains one of `kept`, as far as rows of `among` go.
+bool enough(std::vector<std::set<std::int32_t>> columns, const std::vector<std::int32_t>& kept,
+            const std::set<std::int32_t>& among) {
+  for (auto& column : columns) std::erase_if(column, [&](std::int32_t i) { return among.count(i) == 0; });
+  return std::all_of(columns.begin(), columns.end(), [&](const auto& column) {
+    return std::any_of(kept.begin(), kept.end(), [&](std::int32_t k) {
+      const auto& inner = columns[static_cast<std::size_t>(k)];
+      return !inner.empty() && std::includes(column.begin(), column.end(), inner.begin(), inner.end());
+    });
+  });
 }
 
 CoverState strategy(const CoverState& state) {
@@ -102,6 +128,61 @@ TEST(lazy_bound, is_close_to_the_bound_of_the_whole_matrix) {
   EXPECT_LE(bound.certificate.bound(), whole.lower_bound + 2);
 }
 
+TEST(matrix_blocks, leave_what_reduces_to_the_same_as_the_whole_matrix) {
+  std::mt19937 random(7);
+  std::size_t gone = 0;
+  for (int round = 0; round < 100; ++round) {
+    const auto [balls, points] = scattered(random, 60 + random() % 200, 1 + random() % 80, 0.4);
+    const CoverState whole = cover_matrix(balls, points).cover;
+    const CoverState some =
+        matrix_of_maximal_rows(balls, points, whole.column_ids, 1 + random() % 20);
+    ASSERT_EQ(broken_invariant(some), "");
+    gone += whole.rows() - some.rows();
+    const CoverState expected = reduce(whole), found = reduce(some);
+    ASSERT_EQ(found.row_ids, expected.row_ids);
+    ASSERT_EQ(found.column_ids, expected.column_ids);
+    ASSERT_EQ(found.row_offsets, expected.row_offsets);
+    ASSERT_EQ(found.columns, expected.columns);
+    ASSERT_EQ(found.chosen, expected.chosen);
+    ASSERT_EQ(found.certificate_samples, expected.certificate_samples);
+  }
+  EXPECT_GT(gone, 1000u);
+}
+
+TEST(matrix_blocks, keep_samples_that_are_enough) {
+  std::mt19937 random(8);
+  std::size_t gone = 0;
+  for (int round = 0; round < 100; ++round) {
+    const auto [balls, points] = scattered(random, 60 + random() % 200, 1 + random() % 80, 0.4);
+    const CoverState whole = cover_matrix(balls, points).cover;
+    const auto columns = columns_of(whole);
+    std::set<std::int32_t> all;
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(balls.size()); ++i) all.insert(i);
+    const auto numbers_of = [&](const std::vector<std::int32_t>& samples) {
+      std::vector<std::int32_t> numbers;
+      for (const std::int32_t s : samples) {
+        const auto at = std::lower_bound(whole.column_ids.begin(), whole.column_ids.end(), s);
+        EXPECT_TRUE(at != whole.column_ids.end() && *at == s) << "sample " << s << " is in no ball";
+        numbers.push_back(static_cast<std::int32_t>(at - whole.column_ids.begin()));
+      }
+      return numbers;
+    };
+    const auto kept = minimal_samples(balls, points, 1 + random() % 40);
+    ASSERT_TRUE(std::is_sorted(kept.begin(), kept.end()));
+    ASSERT_TRUE(enough(columns, numbers_of(kept), all));
+    gone += whole.cols() - kept.size();
+    // In one block none that stays contains another.
+    const auto least = numbers_of(minimal_samples(balls, points, 1000));
+    for (const std::int32_t a : least) {
+      for (const std::int32_t b : least) {
+        const auto &outer = columns[static_cast<std::size_t>(a)], &inner = columns[static_cast<std::size_t>(b)];
+        ASSERT_FALSE(a != b && std::includes(outer.begin(), outer.end(), inner.begin(), inner.end()));
+      }
+    }
+  }
+  EXPECT_GT(gone, 1000u);
+}
+
 TEST(large_cover_matrix, has_a_cover_nearly_as_small_and_a_bound_that_geometry_confirms) {
   const auto [balls, points] = test::torus(8000, 0.02, 4);
   const CoverMatrix full = cover_matrix(balls, points);
@@ -116,7 +197,10 @@ TEST(large_cover_matrix, has_a_cover_nearly_as_small_and_a_bound_that_geometry_c
   }
   EXPECT_GT(expected.left_out, 0);
   EXPECT_EQ(expected.left_out + static_cast<std::int64_t>(expected.rows()), expected.balls);
-  EXPECT_EQ(expected.cols(), full.cover.cols());
+  // Samples that are no column are covered with one that is.
+  EXPECT_LT(expected.cols(), full.cover.cols());
+  EXPECT_TRUE(enough(columns_of(full.cover), {expected.column_ids.begin(), expected.column_ids.end()},
+                     {expected.row_ids.begin(), expected.row_ids.end()}));
   EXPECT_EQ(static_cast<BoundHow>(expected.lower_bound_how), BoundHow::certified);
   const CoverState found = local_search(reduce(expected)), best = local_search(reduce(full.cover));
   EXPECT_TRUE(test::covers(full.cover, found));

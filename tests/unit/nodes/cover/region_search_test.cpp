@@ -94,6 +94,8 @@ TEST(cover_regions, own_each_column_once_and_know_all_rows_that_meet_theirs) {
     const std::int32_t last = *std::max_element(region.begin(), region.end());
     for (std::int32_t r = 0; r <= last; ++r) {
       const Part own = region_part(part, columns, r);
+      const Part by_rows = region_part({part.row_ids, part.column_ids, part.rows, {}}, columns, r);
+      ASSERT_EQ(by_rows.columns.entries, own.columns.entries);
       ASSERT_EQ(own.column_ids.size(),
                 static_cast<std::size_t>(std::count(columns.of_column.begin(), columns.of_column.end(), r)));
       std::size_t next = 0;
