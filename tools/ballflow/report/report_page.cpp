@@ -14,6 +14,7 @@
 #include "report/output_cards.hpp"
 #include "report/plot.hpp"
 #include "report/result_plots.hpp"
+#include "report/search_plots.hpp"
 #include "report/style.hpp"
 
 namespace ballflow::report {
@@ -288,7 +289,7 @@ std::string report_page(const ReportInput& input) {
     page += section(
         "Results", table_of(table) + "<details><summary>all fields</summary>" + table_of(all) + "</details>");
   }
-  page += section("Plots", result_plots(report, all) + model_plots(report));
+  page += section("Plots", result_plots(report, all) + search_plots(report) + model_plots(report));
   page += section("Pictures", pictures(input));
   page += section("Time", times(report));
   page += section("What ran", parameters(report) + "<details><summary>" +

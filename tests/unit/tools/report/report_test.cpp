@@ -289,6 +289,25 @@ TEST(report_page, of_one_run_begins_with_what_matters_and_with_warnings_and_thei
   EXPECT_LT(warning, results);
 }
 
+TEST(report_page, draws_the_balls_of_a_search_against_its_steps) {
+  ReportInput input = single_run();
+  EXPECT_EQ(count(report_page(input), "<svg class=\"plot\""), 0u);
+  input.run.report["nodes"]["prune/search"] = nlohmann::json::parse(R"({"type": "LocalSearch", "params": {},
+    "outputs": {"cover": {"type": "CoverState", "digest": "00", "summary": {"lower_bound": 7,
+      "curve": [[0, 12], [1000, 10], "broken", [5, null], [9000, 9]]}}}})");
+  const std::string page = report_page(input);
+  EXPECT_TRUE(well_formed(page));
+  EXPECT_EQ(count(page, "<svg class=\"plot\""), 1u);
+  EXPECT_NE(page.find("Balls after steps of prune/search"), std::string::npos);
+  for (const char* const balls : {"12", "10", "9"}) {
+    EXPECT_EQ(count(page, std::string("\nballs ") + balls + "</title>"), 1u) << balls;
+  }
+  EXPECT_EQ(count(page, "<polyline class=\"guide\""), 1u);
+  EXPECT_NE(page.find("lower bound"), std::string::npos);
+  input.run.report["nodes"]["prune/search"]["outputs"]["cover"]["summary"]["curve"] = {"no", "numbers"};
+  EXPECT_EQ(count(report_page(input), "<svg class=\"plot\""), 0u);
+}
+
 TEST(report_page, orders_outputs_by_type_and_fields_as_their_type_declares_them) {
   EXPECT_EQ(outputs_in_order(single_run().run.report),
             (std::vector<std::string>{"cover", "balls", "anything"}));
