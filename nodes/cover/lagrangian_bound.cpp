@@ -140,7 +140,8 @@ Reals shares(const Part& part, Lookout& look) {
 template <class Number>
 Reals climb(const Part& part, const LagrangianBoundOptions& options, std::span<const float> start,
             Reals* fractions, Monitor& monitor) {
-  constexpr float newest = 0.02F;  // what the last iteration counts among the fractions
+  constexpr double second_start = 0.1;  // of the first step
+  constexpr float newest = 0.02F;       // what the last iteration counts among the fractions
   const std::size_t rows = part.rows.size(), columns = part.columns.size();
   Lookout look(monitor);
   Reals u = start.empty() ? shares(part, look) : Reals(start.begin(), start.end());
@@ -157,6 +158,13 @@ Reals climb(const Part& part, const LagrangianBoundOptions& options, std::span<c
   constexpr float least_slope[] = {-std::numeric_limits<float>::infinity(), 0.0F};
   double best_bound = 0, factor = options.first_step;
   std::int64_t waited = 0, since_best = 0;
+  bool climbed = false;  // above the start
+  bool return_to_best = options.return_to_best;
+  const auto begin_at_best = [&] {
+    since_best = 0;
+    u = best;
+    std::fill(direction.begin(), direction.end(), 0.0F);
+  };
   for (std::int64_t t = 0; t < options.iterations; ++t) {
     if (monitor.cancelled()) throw Cancelled();
     double bound = sum({u.data(), columns});
@@ -174,6 +182,7 @@ Reals climb(const Part& part, const LagrangianBoundOptions& options, std::span<c
     }
     if (bound > best_bound * (1 + 1e-7)) {
       best_bound = bound;
+      climbed = t > 0;
       best = u;
       waited = since_best = 0;
     } else {
@@ -181,13 +190,19 @@ Reals climb(const Part& part, const LagrangianBoundOptions& options, std::span<c
       if (++waited >= options.patience) {
         factor *= options.shrink;
         waited = 0;
-        if (factor < 1e-4) break;
+        if (factor < 1e-4) {
+          // The first step overloads all rows at once; where columns have hundreds of them the steps back are
+          // so much shorter that they end before the multipliers are where they began.
+          if (climbed || return_to_best) break;
+          return_to_best = true;
+          factor = second_start * options.first_step;
+          begin_at_best();
+          continue;
+        }
       }
     }
-    if (options.return_to_best && since_best >= 2 * options.patience) {
-      since_best = 0;
-      u = best;
-      std::fill(direction.begin(), direction.end(), 0.0F);
+    if (return_to_best && since_best >= 2 * options.patience) {
+      begin_at_best();
       continue;
     }
     if (best_bound > upper - 1 + 1e-3) break;  // nothing is left to prove

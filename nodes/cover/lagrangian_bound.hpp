@@ -35,6 +35,9 @@ struct Relaxation {
 /// have room. They go through `prove` (certificate.hpp): rounding up component by component, the certificate
 /// proves the bound on the original balls and samples.
 ///
+/// A climb that ends where it began has taken too long a first step: it begins again with a tenth of it, and
+/// with return_to_best.
+///
 /// - The bound ends near the linear programming bound (3.5 without integrality), never above it but for the
 ///   rounding up. The plain rule (momentum 0) stalls far below.
 /// - Nothing is chosen, the matrix stays. Time O(entries) per iteration, memory 12 bytes per entry.

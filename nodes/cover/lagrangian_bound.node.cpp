@@ -15,7 +15,7 @@ struct LagrangianBound {
   LagrangianBoundOptions options;
 
   static void declare(NodeDecl<LagrangianBound>& d) {
-    d.id("LagrangianBound", 1).summary("Prove how many balls any cover needs, with a certificate.");
+    d.id("LagrangianBound", 2).summary("Prove how many balls any cover needs, with a certificate.");
     d.doc(
         "Climbs the Lagrangian relaxation of every connected component by subgradients with momentum; the "
         "multipliers become integer prices of samples that anybody can check on the original balls. Ends "

@@ -152,24 +152,24 @@ CoverState matrix_of_maximal_rows(const Balls& balls, const PointSet& points,
   for (std::size_t c = 0; c < columns.size(); ++c) number[at(columns[c])] = static_cast<std::int32_t>(c);
   const Ids order = near_balls(balls);
   std::vector<Rows> found(blocks_of(order.size(), block));
-  for_each_block(order.size(), block, monitor, 0, 0.95, [&](std::size_t b, std::size_t first,
-                                                            std::size_t last) {
-    PartOfMany part(monitor);
-    const Ids ids = sorted_part(order, first, last);
-    const Ids near = instance.samples_near(ids, columns);
-    const Csr rows = instance.part(ids, near, part);
-    const Flags gone = dominated(rows, transpose(rows, near.size(), part), Keep::maximal, part);
-    Rows& kept = found[b];
-    std::size_t entries = 0;
-    for (std::size_t i = 0; i < rows.size(); ++i) entries += gone[i] == 0 ? rows.degree(i) : 0;
-    kept.entries.reserve(entries);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (gone[i] != 0) continue;
-      kept.balls.push_back(ids[i]);
-      kept.lengths.push_back(rows.degree(i));
-      for (const std::int32_t c : rows[i]) kept.entries.push_back(number[at(near[at(c)])]);
-    }
-  });
+  for_each_block(
+      order.size(), block, monitor, 0, 0.95, [&](std::size_t b, std::size_t first, std::size_t last) {
+        PartOfMany part(monitor);
+        const Ids ids = sorted_part(order, first, last);
+        const Ids near = instance.samples_near(ids, columns);
+        const Csr rows = instance.part(ids, near, part);
+        const Flags gone = dominated(rows, transpose(rows, near.size(), part), Keep::maximal, part);
+        Rows& kept = found[b];
+        std::size_t entries = 0;
+        for (std::size_t i = 0; i < rows.size(); ++i) entries += gone[i] == 0 ? rows.degree(i) : 0;
+        kept.entries.reserve(entries);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+          if (gone[i] != 0) continue;
+          kept.balls.push_back(ids[i]);
+          kept.lengths.push_back(rows.degree(i));
+          for (const std::int32_t c : rows[i]) kept.entries.push_back(number[at(near[at(c)])]);
+        }
+      });
 
   CoverState state;
   state.balls = static_cast<std::int64_t>(balls.size());
@@ -213,18 +213,17 @@ std::vector<std::int32_t> minimal_samples(const Balls& balls, const PointSet& po
   const SampleTree tree(points.points);
   const Ids& order = tree.order();
   std::vector<Ids> found(blocks_of(order.size(), block));
-  for_each_block(
-      order.size(), block, monitor, 0, 1, [&](std::size_t b, std::size_t first, std::size_t last) {
-        PartOfMany part(monitor);
-        const Ids samples = sorted_part(order, first, last);
-        const Ids near = instance.balls_near(samples);
-        const Csr rows = instance.part(near, samples, part);
-        const Csr columns = transpose(rows, samples.size(), part);
-        const Flags gone = dominated(columns, rows, Keep::minimal, part);
-        for (std::size_t c = 0; c < samples.size(); ++c) {
-          if (gone[c] == 0 && columns.degree(c) > 0) found[b].push_back(samples[c]);
-        }
-      });
+  for_each_block(order.size(), block, monitor, 0, 1, [&](std::size_t b, std::size_t first, std::size_t last) {
+    PartOfMany part(monitor);
+    const Ids samples = sorted_part(order, first, last);
+    const Ids near = instance.balls_near(samples);
+    const Csr rows = instance.part(near, samples, part);
+    const Csr columns = transpose(rows, samples.size(), part);
+    const Flags gone = dominated(columns, rows, Keep::minimal, part);
+    for (std::size_t c = 0; c < samples.size(); ++c) {
+      if (gone[c] == 0 && columns.degree(c) > 0) found[b].push_back(samples[c]);
+    }
+  });
   Ids kept;
   for (const Ids& ids : found) kept.insert(kept.end(), ids.begin(), ids.end());
   std::sort(kept.begin(), kept.end());

@@ -10,8 +10,8 @@
 int main(int argc, char** argv) {
   using namespace ballflow;
   // By itself malloc first returns memory to the system and takes it again all the time, a sixth of all page
-  // faults of a run of ten thousand cached nodes; and after the first large arrays are freed it keeps up to 64
-  // MB of them in pieces between others, a third of what a large cover takes.
+  // faults of a run of ten thousand cached nodes; and after the first large arrays are freed it keeps up to
+  // 64 MB of them in pieces between others, a third of what a large cover takes.
   mallopt(M_MMAP_THRESHOLD, 2 << 20);
   mallopt(M_TRIM_THRESHOLD, 16 << 20);
   cli::Common common;

@@ -4,7 +4,10 @@
 #include <tbb/global_control.h>
 
 #include <atomic>
+#include <utility>
+#include <vector>
 
+#include "cover/cover_matrix.hpp"
 #include "cover/greedy.hpp"
 #include "cover/reduce.hpp"
 #include "cover/share_bound.hpp"
@@ -95,6 +98,23 @@ TEST(lagrangian_bound, is_the_same_for_any_number_of_threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     EXPECT_TRUE(test::same(lagrangian_bound(state), expected));
   }
+}
+
+TEST(lagrangian_bound, climbs_where_hundreds_of_balls_cover_each_sample) {
+  // Discs in a square, 500 around each sample: the first step overloads all of them.
+  std::mt19937 random(5);
+  std::vector<Vec3> points, centers;
+  for (int s = 0; s < 300; ++s) points.push_back({test::unit(random), test::unit(random), 0});
+  for (int i = 0; i < 8000; ++i) centers.push_back({test::unit(random), test::unit(random), 0});
+  PointSet samples;
+  samples.points = std::move(points);
+  const Balls balls{std::move(centers), std::vector<double>(8000, 0.15), {}, {}};
+  const CoverState state = cover_matrix(balls, samples).cover;
+  const CoverState start = lagrangian_bound(state, {.iterations = 0});
+  const CoverState bounded = lagrangian_bound(state);
+  EXPECT_EQ(test::certificate_error(state, bounded), "");
+  EXPECT_GT(bounded.lower_bound, start.lower_bound + 1);
+  EXPECT_LE(bounded.lower_bound, static_cast<std::int64_t>(greedy(state).chosen.size()));
 }
 
 TEST(lagrangian_bound, accepts_matrices_of_one_kind_only) {

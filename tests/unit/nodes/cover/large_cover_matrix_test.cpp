@@ -134,8 +134,7 @@ TEST(matrix_blocks, leave_what_reduces_to_the_same_as_the_whole_matrix) {
   for (int round = 0; round < 100; ++round) {
     const auto [balls, points] = scattered(random, 60 + random() % 200, 1 + random() % 80, 0.4);
     const CoverState whole = cover_matrix(balls, points).cover;
-    const CoverState some =
-        matrix_of_maximal_rows(balls, points, whole.column_ids, 1 + random() % 20);
+    const CoverState some = matrix_of_maximal_rows(balls, points, whole.column_ids, 1 + random() % 20);
     ASSERT_EQ(broken_invariant(some), "");
     gone += whole.rows() - some.rows();
     const CoverState expected = reduce(whole), found = reduce(some);
@@ -175,7 +174,8 @@ TEST(matrix_blocks, keep_samples_that_are_enough) {
     const auto least = numbers_of(minimal_samples(balls, points, 1000));
     for (const std::int32_t a : least) {
       for (const std::int32_t b : least) {
-        const auto &outer = columns[static_cast<std::size_t>(a)], &inner = columns[static_cast<std::size_t>(b)];
+        const auto &outer = columns[static_cast<std::size_t>(a)],
+                   &inner = columns[static_cast<std::size_t>(b)];
         ASSERT_FALSE(a != b && std::includes(outer.begin(), outer.end(), inner.begin(), inner.end()));
       }
     }
