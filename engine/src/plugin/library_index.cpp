@@ -1,5 +1,8 @@
 #include "plugin/library_index.hpp"
 
+#include <link.h>
+
+#include <cstdlib>
 #include <filesystem>
 #include <utility>
 
@@ -11,13 +14,42 @@ namespace ballflow {
 namespace {
 
 constexpr std::string_view magic = "bflibrary";
-constexpr std::uint32_t format = 1;
+constexpr std::uint32_t format = 2;
 constexpr const char* file_name = "libraries";
 constexpr std::uint64_t size_limit = 64u << 20;  // bytes; a library declares some ten thousand
 constexpr mode_t file_mode = 0444;
 
 bool trusted(FileSystem& files, const OpenFile& file, struct stat& status) {
   return file.is_open() && files.status(file.get(), status) >= 0 && distrust(status).empty();
+}
+
+std::optional<FileState> state_of(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
+  return FileState(status);
+}
+
+std::string search_path() {
+  const char* const folders = std::getenv("LD_LIBRARY_PATH");
+  return folders == nullptr ? "" : folders;
+}
+
+void encode(const FileState& state, RecordWriter& writer) {
+  writer.number(state.device);
+  writer.number(state.inode);
+  writer.number(state.size);
+  writer.number(state.modified);
+  writer.number(state.changed);
+}
+
+FileState decode_state(RecordReader& reader) {
+  FileState state;
+  reader.number(state.device);
+  reader.number(state.inode);
+  reader.number(state.size);
+  reader.number(state.modified);
+  reader.number(state.changed);
+  return state;
 }
 
 /// Reads what encode() wrote.
@@ -110,27 +142,48 @@ std::optional<std::string> LibraryIndex::read() const {
 }
 
 void LibraryIndex::decode(std::string_view bytes) {
-  constexpr std::size_t smallest_library = 4 + 5 * 8 + 1 + 32 + 4 * 4;
+  constexpr std::size_t smallest_object = 4 + 5 * 8, smallest_library = smallest_object + 1 + 32 + 4 * 4;
   RecordReader reader(bytes);
   if (!reader.unseal() || reader.raw(magic.size()) != magic) return;
   std::uint32_t its_format = 0, abi = 0;
   reader.number(its_format);
   reader.number(abi);
   if (its_format != format || abi != BALLFLOW_ABI_VERSION) return;
+  std::string folders;
+  reader.text(folders);
+  bool same = folders == search_path();
+  std::map<std::string, FileState> objects;
+  for (std::uint32_t left = reader.count(smallest_object); left > 0 && reader.ok(); --left) {
+    std::string path;
+    reader.text(path);
+    const FileState state = decode_state(reader);
+    same = same && state_of(path) == state;
+    objects.insert_or_assign(std::move(path), state);
+  }
   std::map<std::string, Known> libraries;
   for (std::uint32_t left = reader.count(smallest_library); left > 0 && reader.ok(); --left) {
     std::string path;
     Known known;
     reader.text(path);
-    reader.number(known.state.device);
-    reader.number(known.state.inode);
-    reader.number(known.state.size);
-    reader.number(known.state.modified);
-    reader.number(known.state.changed);
+    known.state = decode_state(reader);
     known.outline = std::make_shared<const LibraryOutline>(decode_outline(reader));
     libraries.insert_or_assign(std::move(path), std::move(known));
   }
-  if (reader.at_end()) libraries_ = std::move(libraries);
+  if (!reader.at_end() || !same) return;
+  libraries_ = std::move(libraries);
+  shared_objects_ = std::move(objects);
+}
+
+void LibraryIndex::note_shared_objects() {
+  const auto note = [](dl_phdr_info* object, std::size_t, void* self) {
+    const std::string path = object->dlpi_name;  // nothing for the program itself
+    if (path.find('/') == std::string::npos) return 0;
+    if (const auto state = state_of(path))
+      static_cast<LibraryIndex*>(self)->shared_objects_.insert_or_assign(path, *state);
+    return 0;
+  };
+  dl_iterate_phdr(note, this);
+  for (const auto& [path, known] : libraries_) shared_objects_.erase(path);
 }
 
 std::string LibraryIndex::encoded() const {
@@ -138,14 +191,16 @@ std::string LibraryIndex::encoded() const {
   writer.raw(magic);
   writer.number(format);
   writer.number(std::uint32_t{BALLFLOW_ABI_VERSION});
+  writer.text(search_path());
+  writer.number(static_cast<std::uint32_t>(shared_objects_.size()));
+  for (const auto& [path, state] : shared_objects_) {
+    writer.text(path);
+    encode(state, writer);
+  }
   writer.number(static_cast<std::uint32_t>(libraries_.size()));
   for (const auto& [path, known] : libraries_) {
     writer.text(path);
-    writer.number(known.state.device);
-    writer.number(known.state.inode);
-    writer.number(known.state.size);
-    writer.number(known.state.modified);
-    writer.number(known.state.changed);
+    encode(known.state, writer);
     encode(*known.outline, writer);
   }
   return std::move(writer).sealed();
@@ -172,6 +227,7 @@ void LibraryIndex::save() {
     return files_->status(FileSystem::working_folder, item.first, status) < 0 ||
            FileState(status) != item.second.state;
   });
+  note_shared_objects();
   const std::string bytes = encoded();
   Draft draft(*files_, root_.get(), temporary_name(*files_, file_name), file_mode);
   if (draft.made() == 0 && draft.write(std::as_bytes(std::span(bytes))) == 0)

@@ -1,7 +1,9 @@
 // What node libraries declare, kept from one start of a program to the next, so that a library is opened only
 // when one of its nodes runs. One file of the cache folder, <root>/libraries; numbers, texts and the checksum
 // at the end are those of base/record.hpp:
-//   "bflibrary" u32:1 u32:plugin ABI
+//   "bflibrary" u32:2 u32:plugin ABI
+//   text:LD_LIBRARY_PATH
+//   u32:shared objects { text:path u64:device u64:inode u64:size i64:mtime_ns i64:ctime_ns }
 //   u32:libraries { text:path u64:device u64:inode u64:size i64:mtime_ns i64:ctime_ns u8:has digest
 //   digest[32]
 //                   text:name text:version
@@ -9,8 +11,11 @@
 //                   u32:nodes { text:id u8:lists files text:declaration
 //                               u32:ports { text:name text:type i32:type_version } } }
 //   checksum
-// Only libraries that were loaded and found good are in it. A file that does not follow its grammar to the
-// last byte, or that others may have written, is none; so is what was written for another state of a library.
+// Only libraries that were loaded and found good are in it. What they declare has versions of libraries that
+// they use (CBC, CGAL) in it, as these say at run time: the shared objects are all that processes had loaded
+// when they added something, and when one of them is another file today, or libraries are looked for in other
+// folders, nothing of the index counts. A file that does not follow its grammar to the last byte, or that
+// others may have written, is none; so is what was written for another state of a library.
 // Its number of format changes with what the engine refuses of declarations, too.
 #pragma once
 
@@ -51,10 +56,12 @@ class LibraryIndex {
   std::optional<std::string> read() const;
   void decode(std::string_view bytes);
   std::string encoded() const;
+  void note_shared_objects();
 
   std::shared_ptr<FileSystem> files_;
   OpenFile root_;
   std::map<std::string, Known> libraries_;
+  std::map<std::string, FileState> shared_objects_;  // by the path that the loader found
   bool changed_ = false;
 };
 

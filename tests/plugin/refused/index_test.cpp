@@ -192,6 +192,25 @@ TEST_F(library_index, forgets_a_library_that_changed_or_went) {
   EXPECT_EQ(test::read_file(index()).find(gone), std::string::npos);
 }
 
+// Declarations have versions of such libraries in them, and keys have the declarations.
+TEST_F(library_index, counts_for_nothing_when_a_library_that_node_libraries_use_is_another_one) {
+  const std::string path = copy("uses_helper", "uses_helper");
+  copy("libhelper", "libhelper");
+  INDEXED_ELSEWHERE({path});
+  const ino_t first = inode(index());
+  INDEXED_ELSEWHERE({path});
+  EXPECT_EQ(inode(index()), first);
+  copy("libhelper", "libhelper");
+  INDEXED_ELSEWHERE({path});
+  const ino_t second = inode(index());
+  EXPECT_NE(second, first);
+
+  setenv("LD_LIBRARY_PATH", folder_.path().c_str(), 1);
+  INDEXED_ELSEWHERE({path});
+  unsetenv("LD_LIBRARY_PATH");
+  EXPECT_NE(inode(index()), second);
+}
+
 TEST_F(library_index, a_library_that_changes_before_it_is_opened_fails_with_words) {
   const std::string path = copy("good", "late");
   INDEXED_ELSEWHERE({path});
