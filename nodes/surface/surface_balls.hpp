@@ -33,7 +33,7 @@ struct SurfaceBalls {
   SurfaceBallsReport report;
 };
 
-/// Ball i is that of sample i, unless balls are ordered `by_size`. Then equal balls whose centres are images
+/// Ball i is that of sample i, unless balls are ordered `by_place`. Then equal balls whose centres are images
 /// of each other in coordinate planes are the only ones whose order a mirror changes.
 ///
 /// d3 is the distance to the third nearest other sample, of the whole sample.
