@@ -19,7 +19,7 @@ struct CoverMatrixNode {
   CoverMatrixOptions options;
 
   static void declare(NodeDecl<CoverMatrixNode>& d) {
-    d.id("CoverMatrix", 4).summary("Find out which ball covers which sample.");
+    d.id("CoverMatrix", 5).summary("Find out which ball covers which sample.");
     d.doc(
         "Entry (i, j) of the matrix is 1 iff sample j lies in ball i: |c - s|^2 <= r^2 (1 + 2^-30), or the "
         "sample "

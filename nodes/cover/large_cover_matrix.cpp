@@ -79,7 +79,9 @@ std::vector<std::int32_t> candidate_balls(const Balls& balls, const PointSet& po
     for (const std::int32_t i : kept) sum += Content(contents[at(i)]).samples;
     return sum;
   };
-  for (std::size_t group = 2; entries() > options.entries && group <= near.size(); ++group) {
+  const std::int64_t most =
+      std::max(options.entries, options.entries_per_sample * static_cast<std::int64_t>(points.points.size()));
+  for (std::size_t group = 2; entries() > most && group <= near.size(); ++group) {
     kept = thinned(near, contents, group);
   }
 

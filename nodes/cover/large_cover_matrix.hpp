@@ -13,8 +13,11 @@
 namespace ballflow::geometry {
 
 struct CandidateOptions {
-  double least_load = 0.7;            // of a candidate, by the prices of its samples
-  std::int64_t entries = 40'000'000;  // about; more candidates than this has room for are thinned out
+  double least_load = 0.7;  // of a candidate, by the prices of its samples
+  // More candidates than have about so many entries with all samples are thinned out. Of these a twelfth to a
+  // third are left when rows and columns that are not needed are gone.
+  std::int64_t entries = 40'000'000;
+  std::int64_t entries_per_sample = 100;  // of them, where that is more
 };
 
 /// The balls that a cover may be made of, ascending: those whose samples cost at least `least_load` by the
