@@ -2,9 +2,11 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -162,6 +164,11 @@ class Spreading {
   void look_at(std::size_t p, std::span<const std::int32_t> list, const Visit& visit) {
     look_(list.size());
     pairs_ += static_cast<std::int64_t>(list.size());
+    weigh_all(p, list, visit);
+  }
+  /// The same from any thread, and without counting.
+  template <class Visit>
+  void weigh_all(std::size_t p, std::span<const std::int32_t> list, const Visit& visit) const {
     for (const std::int32_t q : list) {
       if (at(q) == p) continue;
       const double d = cosine(p, at(q));
@@ -169,18 +176,13 @@ class Spreading {
       if (d < 0) visit(at(q), false, -d);
     }
   }
-  /// All evidence that p gives at samples that are not crowded; for an entry that shares several samples with
-  /// p more than once.
+  /// All evidence that p gives at samples that are not crowded, for an entry that shares several samples with
+  /// p more than once, and the strongest at crowded samples.
   template <class Visit>
-  void for_neighbours_in_the_open(std::size_t p, const Visit& visit) {
+  void for_neighbours(std::size_t p, const Visit& visit) {
     for (const std::int32_t s : samples_of(p)) {
       if (!crowded(at(s))) look_at(p, entries_at(at(s)), visit);
     }
-  }
-  /// That, and the strongest at crowded samples.
-  template <class Visit>
-  void for_neighbours(std::size_t p, const Visit& visit) {
-    for_neighbours_in_the_open(p, visit);
     look_at(p, std::as_const(strong_pairs_)[p], visit);
   }
 
@@ -267,10 +269,21 @@ class Spreading {
         side = std::max(side, certainty);
       };
     };
-    for (std::size_t p = 0; p < labels.size(); ++p) {
-      if (p % 4096 == 0) monitor_.step(0.95);
-      for_neighbours_in_the_open(p, weigh(p));
-    }
+    monitor_.step(0.95);
+    std::atomic<std::int64_t> looked_at = 0;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, labels.size(), 4096), [&](const auto& range) {
+      if (monitor_.cancelled()) throw Cancelled();
+      std::int64_t pairs = 0;
+      for (std::size_t p = range.begin(); p != range.end(); ++p) {
+        for (const std::int32_t s : samples_of(p)) {
+          if (crowded(at(s))) continue;
+          pairs += static_cast<std::int64_t>(entries_at(at(s)).size());
+          weigh_all(p, entries_at(at(s)), weigh(p));
+        }
+      }
+      looked_at.fetch_add(pairs, std::memory_order_relaxed);
+    });
+    pairs_ += looked_at;
     for (std::size_t s = 0; s < entries_.size(); ++s) {
       if (!crowded(s)) continue;
       // With the directions of outer entries turned around, what is near speaks for a label, what is opposite
@@ -303,7 +316,7 @@ class Spreading {
   void rank_entries() {
     std::vector<std::int32_t> order(poles_.size());
     std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
+    tbb::parallel_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
       if (poles_.radii[at(a)] != poles_.radii[at(b)]) return poles_.radii[at(a)] > poles_.radii[at(b)];
       if (poles_.centers[at(a)] != poles_.centers[at(b)])
         return poles_.centers[at(a)] < poles_.centers[at(b)];
