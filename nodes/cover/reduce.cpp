@@ -22,6 +22,12 @@ struct Matrix {
   Ids row_ids, column_ids;
   Ids row_rank, column_rank;  // SubsetTest::bandwidth: where a row or column is in that order; else empty
 
+  /// Makes the columns from the rows. Old and new ones are never there at once: of large matrices two
+  /// orientations are enough to hold beside the input.
+  void transpose_rows(std::size_t count, Monitor& monitor) {
+    columns = {};
+    columns = transpose(rows, count, monitor);
+  }
   void erase_rows(const Flags& gone) {
     erase(row_ids, gone);
     erase(row_rank, gone);
@@ -114,11 +120,16 @@ CoverState reduce(const CoverState& state, const ReduceOptions& options, Monitor
                        dirty_rows, counts, monitor);
     dirty_rows.clear();
     if (any(gone_rows)) {
-      Ids shrunk;
-      matrix.rows = without(matrix.rows, gone_rows, none_of_columns, shrunk, monitor);
-      matrix.columns = without(matrix.columns, none_of_columns, gone_rows, shrunk, monitor);
+      const Array<std::int64_t> before = matrix.columns.offsets;
+      Ids unchanged;
+      matrix.rows = without(matrix.rows, gone_rows, none_of_columns, unchanged, monitor);
+      matrix.transpose_rows(none_of_columns.size(), monitor);
       matrix.erase_rows(gone_rows);
-      if (round > 1) dirty_columns = std::move(shrunk);
+      for (std::size_t c = 0; round > 1 && c < matrix.columns.size(); ++c) {
+        if (static_cast<std::int64_t>(matrix.columns.degree(c)) < before[c + 1] - before[c]) {
+          dirty_columns.push_back(static_cast<std::int32_t>(c));
+        }
+      }
     }
     if (dirty_columns.empty()) continue;
 
@@ -145,9 +156,10 @@ CoverState reduce(const CoverState& state, const ReduceOptions& options, Monitor
       witnesses.close();
     }
     if (any(gone_columns)) {
-      Ids unchanged;
-      matrix.columns = without(matrix.columns, gone_columns, essential, unchanged, monitor);
+      const auto kept = std::count(gone_columns.begin(), gone_columns.end(), 0);
+      matrix.columns = {};
       matrix.rows = without(matrix.rows, essential, gone_columns, dirty_rows, monitor);
+      matrix.transpose_rows(static_cast<std::size_t>(kept), monitor);
       matrix.erase_columns(gone_columns);
       matrix.erase_rows(essential);
     }
