@@ -4,8 +4,9 @@
 usage: tools/floors.py [--fix]
 Reads cmake/floors.txt, which says what every folder may include, and all #include lines of engine, nodes and tools.
 Fails on an include that runs upwards or sideways, on a folder that no floor has, on a table with a cycle, on a source
-file over 450 lines (tables excepted), and when the picture in ARCHITECTURE.md is not that of the table. --fix draws it.
+file over 450 lines, and when the picture in ARCHITECTURE.md is not that of the table. --fix draws it.
 """
+import os
 import pathlib
 import re
 import sys
@@ -18,6 +19,7 @@ BEGIN, END = "<!-- floors: begin -->", "<!-- floors: end -->"
 AREAS = {"engine": ROOT / "engine" / "src", "nodes": ROOT / "nodes", "tools": ROOT / "tools" / "ballflow"}
 PUBLIC = ROOT / "engine" / "include" / "ballflow"
 MOST_LINES = 450
+SOURCES = (".cpp", ".hpp", ".h", ".py", ".js", ".mjs")
 # Besides *.node.cpp and *.type.cpp: what connects a family of nodes with the engine.
 SEES_SDK = ("plugin.cpp", "artifact_types.hpp", "box_summary.hpp", "type_of.hpp")
 
@@ -107,14 +109,30 @@ def findings(sees, headers, below):
             yield f"{shown}: cmake/floors.txt has no line for its folder"
             continue
         lines = path.read_text().splitlines()
-        if len(lines) > MOST_LINES:
-            yield f"{shown}: {len(lines)} lines; more than {MOST_LINES} have several subjects, split them"
         allowed = below[floor] | ({"engine/sdk"} if is_adapter(path) else set())
         for number, line in enumerate(lines, 1):
             match = re.match(r'\s*#include ["<]([^">]+)[">]', line)
             target = match and floor_of_include(area, match[1], sees, headers)
             if target and target not in allowed:
                 yield f"{shown}:{number}: {floor} does not see {target} ({match[1]})"
+
+
+def is_source(path):
+    """Of any language; programs without a suffix begin with #!."""
+    if path.suffix in SOURCES:
+        return True
+    return not path.suffix and path.is_file() and path.read_bytes()[:2] == b"#!"
+
+
+def long_files():
+    for top in ("engine", "nodes", "tools", "tests"):
+        for folder, folders, names in os.walk(ROOT / top):
+            folders[:] = sorted(name for name in folders if name not in ("node_modules", "__pycache__", "dist"))
+            for path in (pathlib.Path(folder, name) for name in sorted(names)):
+                lines = path.read_text().count("\n") if is_source(path) else 0
+                if lines > MOST_LINES:
+                    shown = path.relative_to(ROOT)
+                    yield f"{shown}: {lines} lines; more than {MOST_LINES} have several subjects, split them"
 
 
 def picture(sees):
@@ -135,7 +153,7 @@ def main():
     if sys.argv[1:] not in ([], ["--fix"]):
         sys.exit(__doc__)
     sees, headers = read_table()
-    found = list(findings(sees, headers, closure(sees)))
+    found = [*findings(sees, headers, closure(sees)), *long_files()]
     text = PICTURE.read_text()
     if BEGIN not in text:
         sys.exit(f"ARCHITECTURE.md: the line {BEGIN} is missing, after which the picture is drawn")

@@ -25,7 +25,7 @@ def entry(node: tuple[Any, str]) -> tuple[str, str, str, Any]:
     function, digest = node
 
     def call(inputs: Any, params: str, run: Any) -> Any:
-        from . import _node
+        from . import _failures
         from ._results import artifact_of
 
         lists = {name: [artifact_of(core) for core in cores] for name, cores in inputs.items()}
@@ -34,7 +34,7 @@ def entry(node: tuple[Any, str]) -> tuple[str, str, str, Any]:
         except BaseException as problem:  # whatever the function raises ends the node, not the run
             if run.cancelled():
                 return ("cancelled",)
-            cause, hint = _node.failure_of(problem)
+            cause, hint = _failures.failure_of(problem)
             return "failed", cause, hint
         return "ok", {name: artifact._core for name, artifact in outputs.items()}
 

@@ -24,7 +24,6 @@ from __future__ import annotations
 
 import ast
 import dataclasses
-import dis
 import enum
 import functools
 import hashlib
@@ -36,21 +35,26 @@ import json
 import linecache
 import logging
 import os
-import re
 import sys
 import threading
 import types
-from pathlib import Path, PurePath
-from typing import Any, Iterator, Optional
+from pathlib import Path
+from typing import Any, Optional
 
 import numpy as np
 
-#: Source text of files as it was when their nodes were made; a file may be edited afterwards.
-_texts: dict[str, str] = {}
-#: Content of modules of one's own as they were imported, by path, where an importer has told.
-imported: dict[str, bytes] = {}
-#: The same as it was when it was first looked at, and the module as it was then: a reload makes another spec.
-_contents: dict[str, tuple[Any, bytes]] = {}
+from ._source_text import (
+    content_of,
+    function_text,
+    globals_of,
+    imported,
+    imports_of,
+    normal,
+    parsed,
+    plain,
+    text_of,
+    texts,
+)
 
 
 def remember(function: types.FunctionType) -> None:
@@ -58,123 +62,11 @@ def remember(function: types.FunctionType) -> None:
     They may be edited afterwards, and what runs is what was read."""
     name = function.__code__.co_filename
     linecache.checkcache(name)
-    _texts[name] = "".join(linecache.getlines(name, function.__globals__))
+    texts[name] = "".join(linecache.getlines(name, function.__globals__))
     try:
         _Walk(function).function(function)
     except (ValueError, OSError):
         pass  # said when the digest is asked for
-
-
-def _content_of(path: Path, spec: Any) -> bytes:
-    real = os.path.realpath(path)
-    if real in imported:
-        return imported[real]
-    known = _contents.get(real)
-    if known is None or known[0] is not spec:
-        known = _contents[real] = (spec, path.read_bytes())
-    return known[1]
-
-
-def _text_of(filename: str, names: dict[str, Any]) -> str:
-    if filename not in _texts:
-        _texts[filename] = "".join(linecache.getlines(filename, names))
-    return _texts[filename]
-
-
-@functools.lru_cache(maxsize=64)
-def _parsed(text: str) -> Optional[ast.Module]:
-    try:
-        return ast.parse(text)
-    except (SyntaxError, ValueError):
-        return None
-
-
-def _normal(text: bytes) -> str:
-    try:
-        return ast.unparse(ast.parse(text))
-    except (SyntaxError, ValueError):
-        return hashlib.sha256(text).hexdigest()
-
-
-def _code_text(code: types.CodeType) -> str:
-    """Of a function without a source file: its byte code, which differs between versions of Python."""
-    parts = [code.co_code.hex(), repr(code.co_names), repr(code.co_varnames), repr(code.co_freevars)]
-    for constant in code.co_consts:
-        inner = isinstance(constant, types.CodeType)
-        parts.append(_code_text(constant) if inner else _plain(constant) or repr(constant))
-    return "\n".join(parts)
-
-
-def _function_text(function: types.FunctionType) -> str:
-    code = function.__code__
-    tree = _parsed(_text_of(code.co_filename, function.__globals__))
-    found = []
-    for node in ast.walk(tree) if tree is not None else ():
-        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
-            first = min([node.lineno, *(decorator.lineno for decorator in node.decorator_list)])
-            if node.name == code.co_name and first == code.co_firstlineno:
-                found.append(ast.unparse(node))
-        elif isinstance(node, ast.Lambda) and code.co_name == "<lambda>" and node.lineno == code.co_firstlineno:
-            found.append(ast.unparse(node))
-    return "\n".join(found) if found else importlib.util.MAGIC_NUMBER.hex() + _code_text(code)
-
-
-def _globals_of(code: types.CodeType) -> set[str]:
-    """The globals that a function names, and those that functions inside it do."""
-    names = {
-        instruction.argval
-        for instruction in dis.get_instructions(code)
-        if instruction.opname in ("LOAD_GLOBAL", "LOAD_NAME", "LOAD_FROM_DICT_OR_GLOBALS")
-    }
-    for constant in code.co_consts:
-        if isinstance(constant, types.CodeType):
-            names |= _globals_of(constant)
-    return names
-
-
-def _imports_of(tree: ast.AST, package: str) -> Iterator[str]:
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom):
-            module = node.module or ""
-            if node.level:
-                parts = package.split(".")
-                start = ".".join(parts[: len(parts) - node.level + 1])
-                module = f"{start}.{module}".strip(".")
-            if module:
-                yield module
-                yield from (f"{module}.{alias.name}" for alias in node.names)
-
-
-def _plain(value: Any, depth: int = 0) -> Optional[str]:
-    """Canonical text of plain data; None for anything else."""
-    if depth > 50:
-        return None
-    kind = type(value)
-    if value is None or kind in (bool, int, str, bytes, complex) or value is Ellipsis:
-        return repr(value)
-    if kind is float:
-        return str(value.hex())
-    if kind in (tuple, list, set, frozenset, dict):
-        parts = [x for item in value.items() for x in item] if kind is dict else list(value)
-        texts = [_plain(part, depth + 1) for part in parts]
-        known = [text for text in texts if text is not None]
-        if len(known) != len(texts):
-            return None
-        return f"{kind.__name__}({', '.join(sorted(known) if kind in (set, frozenset) else known)})"
-    if isinstance(value, np.ndarray) and not value.dtype.hasobject:
-        digest = hashlib.sha256(np.ascontiguousarray(value).tobytes()).hexdigest()
-        return f"array({value.dtype.str}, {value.shape}, {digest})"
-    if isinstance(value, np.generic) and not isinstance(value, np.object_):
-        return f"{value.dtype.str}({value.tobytes().hex()})"
-    if isinstance(value, PurePath):
-        return f"path({str(value)!r})"
-    if isinstance(value, re.Pattern):
-        return f"pattern({value.pattern!r}, {value.flags})"
-    if kind is range or isinstance(value, np.dtype):
-        return repr(value)
-    return None
 
 
 _LOCKS = (type(threading.Lock()), type(threading.RLock()))
@@ -236,12 +128,12 @@ class _Walk:
     def function(self, function: types.FunctionType) -> None:
         if not self.is_new(function):
             return
-        text = _function_text(function)
+        text = function_text(function)
         self.add("function", function.__qualname__, text)
-        names = _globals_of(function.__code__)
-        tree = _parsed(text)
+        names = globals_of(function.__code__)
+        tree = parsed(text)
         if tree is not None:
-            for name in _imports_of(tree, str(function.__globals__.get("__package__") or "")):
+            for name in imports_of(tree, str(function.__globals__.get("__package__") or "")):
                 self.module(name)
             for statement in tree.body:  # decorators are outside of the code of the function
                 for decorator in getattr(statement, "decorator_list", ()):
@@ -267,7 +159,7 @@ class _Walk:
                 self.value(name, scope[name], scope)
 
     def value(self, name: str, value: Any, scope: dict[str, Any]) -> None:
-        text = _plain(value)
+        text = plain(value)
         if text is not None:
             self.add("value", name, text)
             return
@@ -342,7 +234,7 @@ class _Walk:
                 inner = cell.cell_contents
             except ValueError:  # not filled yet
                 continue
-            if isinstance(inner, types.FunctionType) or _plain(inner) is not None:
+            if isinstance(inner, types.FunctionType) or plain(inner) is not None:
                 self.value(name, inner, scope)  # anything else belongs to that module
 
     def class_(self, cls: type) -> None:
@@ -355,14 +247,14 @@ class _Walk:
         files = {self.root.__code__.co_filename, *(method.__code__.co_filename for method in methods)}
         found = False
         for filename in sorted(files):
-            tree = _parsed(_text_of(filename, scope))
+            tree = parsed(text_of(filename, scope))
             for node in ast.walk(tree) if tree is not None else ():
                 if not isinstance(node, ast.ClassDef) or node.name != cls.__name__:
                     continue
                 found = True
                 self.add("class", cls.__qualname__, ast.unparse(node))
                 self.names({inner.id for inner in ast.walk(node) if isinstance(inner, ast.Name)}, scope)
-                for name in _imports_of(node, str(scope.get("__package__") or "")):
+                for name in imports_of(node, str(scope.get("__package__") or "")):
                     self.module(name)
         if found:
             return
@@ -394,7 +286,7 @@ class _Walk:
     def statements_of(self, name: str, scope: dict[str, Any]) -> list[ast.stmt]:
         """The statements of the file of the node that give something to a global name."""
         statements: list[ast.stmt] = []
-        tree = _parsed(_text_of(self.root.__code__.co_filename, self.root.__globals__))
+        tree = parsed(text_of(self.root.__code__.co_filename, self.root.__globals__))
         if scope is not self.root.__globals__ or tree is None:
             return statements
         for statement in tree.body:
@@ -424,7 +316,7 @@ class _Walk:
             self.add("statement", name, ast.unparse(statement))
             used = {node.id for node in ast.walk(statement) if isinstance(node, ast.Name)}
             self.names(used - {name}, self.root.__globals__)
-            for imported_name in _imports_of(statement, str(scope.get("__package__") or "")):
+            for imported_name in imports_of(statement, str(scope.get("__package__") or "")):
                 self.module(imported_name)
 
     def module(self, name: str) -> None:
@@ -464,16 +356,16 @@ class _Walk:
 
     def file(self, name: str, package: str, path: Path, spec: importlib.machinery.ModuleSpec) -> None:
         """A file of a module of one's own, and what it imports."""
-        content = _content_of(path, spec)
+        content = content_of(path, spec)
         if path.suffix != ".py":
             self.add("module", name, hashlib.sha256(content).hexdigest())
             return
-        self.add("module", name, _normal(content))
+        self.add("module", name, normal(content))
         try:
             tree = ast.parse(content)
         except (SyntaxError, ValueError):
             return
-        for imports in _imports_of(tree, package):
+        for imports in imports_of(tree, package):
             self.module(imports)
 
 

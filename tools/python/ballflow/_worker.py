@@ -156,7 +156,7 @@ class Refused(Exception):
 
 def load(file: str) -> dict[str, Any]:
     """Imports the file; its nodes by id. Raises Refused that says what is wrong with it."""
-    from ballflow import _node, _source
+    from ballflow import _failures, _node, _source
 
     folder, base = os.path.split(file)
     sys.path[0] = folder
@@ -177,7 +177,7 @@ def load(file: str) -> dict[str, Any]:
         linecache.cache[file] = (len(content), None, lines, file)
         exec(code, module.__dict__)
     except BaseException as problem:
-        raise Refused(f"cannot be imported: {_node.failure_of(problem, file)[0]}") from None
+        raise Refused(f"cannot be imported: {_failures.failure_of(problem, file)[0]}") from None
     nodes: dict[str, Any] = {}
     for node in _node.registered():
         if node._ballflow_function.__globals__ is not module.__dict__:
@@ -261,7 +261,7 @@ class Run:
 
 
 def run(node: Any, request: dict[str, Any], file: Optional[int], channel: Channel, path: str) -> None:
-    from ballflow import _node
+    from ballflow import _failures
 
     memory: Any = b""
     if file is not None:
@@ -288,8 +288,8 @@ def run(node: Any, request: dict[str, Any], file: Optional[int], channel: Channe
             described, outputs = write_artifacts(node.call(inputs, request["params"], told))
         answer = {"outputs": described}
     except BaseException as problem:
-        cause, hint = _node.failure_of(problem, path)
-        answer = {"error": cause, "hint": hint, "trace": _node.trace_of(problem)}
+        cause, hint = _failures.failure_of(problem, path)
+        answer = {"error": cause, "hint": hint, "trace": _failures.trace_of(problem)}
     sys.stdout.flush()
     sys.stderr.flush()
     told.send(answer, outputs)
