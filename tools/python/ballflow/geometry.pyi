@@ -684,8 +684,9 @@ def cover_matrix(
     Entry (i, j) of the matrix is 1 iff sample j lies in ball i: |c - s|^2 <= r^2 (1 + 2^-30), or the sample
       defines the ball. A matrix of more than `full_entries` entries is not made: a lower bound with a
       certificate comes first, from few samples and all balls, and its prices tell which balls a good cover
-      may be made of; these alone are rows. Accepts any balls, also overlapping, equal or empty ones.
-      Refuses coordinates beyond 1e140 and defining samples that are not among the points.
+      may be made of; these alone are rows, without those inside others, and columns that contain others are
+      left out. Accepts any balls, also overlapping, equal or empty ones. Refuses coordinates beyond 1e140
+      and defining samples that are not among the points.
 
     When not to use it: the balls cover each sample thousands of times: thin the sample or enlarge less, the
       matrix grows with the number of (ball, sample) pairs.
