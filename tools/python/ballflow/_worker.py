@@ -142,7 +142,7 @@ def make_package() -> types.ModuleType:
         setattr(package, name, getattr(_artifact if name == "Artifact" else _node, name))
 
     def look_up(name: str) -> Any:
-        if name.startswith("__"):
+        if name.startswith("_"):  # and its own modules, which are then imported
             raise AttributeError(f"module 'ballflow' has no attribute {name!r}")
         return _artifact.class_named(name) or Absent(name)
 
