@@ -12,6 +12,7 @@
 #include "mesh/boundary_gap.hpp"
 #include "mesh/exact_mesh.hpp"
 #include "mesh/grid_mesh.hpp"
+#include "mesh/near_splits.hpp"
 #include "mesh/simplified_mesh.hpp"
 #include "mesh/skin_mesh.hpp"
 #include "power/alpha_shape.hpp"
@@ -69,19 +70,13 @@ class Mesher {
     if (!(extent_ > 0))
       throw InputError("the union of the balls is a single point, which has no surface",
                        "give the ball a radius, or leave it out");
-    bool crossing = true;  // triangles of a grid lie in different tetrahedra
     if (options_.method == BallMeshMethod::skin) {
       skin();
     } else if (options_.method != BallMeshMethod::exact || !exact()) {
       grid();
-      crossing = false;
     }
-    if (options_.keep_faces < 100) {
-      simplify();
-      crossing = true;
-    }
-    if (!crossing) result_.report.self_intersections = 0;
-    if (crossing && options_.self_intersections) count_self_intersections();
+    if (options_.keep_faces < 100) simplify();
+    if (options_.self_intersections) count_self_intersections();
     return std::move(result_);
   }
 
@@ -150,6 +145,7 @@ class Mesher {
     // Thin parts want smaller cells, but in the bottom of sharp notches there are bubbles at every size: two
     // rounds without progress are enough.
     std::optional<BallMesh> best;
+    std::int32_t best_split = 0;
     double cell = 2.5 * report.error_asked;
     for (std::int64_t round = 0, in_vain = 0; in_vain < 2; ++round) {
       std::optional<GridMesh> mesh =
@@ -162,6 +158,7 @@ class Mesher {
         continue;
       }
       result_.mesh = std::move(mesh->mesh);
+      first_split_ = mesh->first_split;
       // Between the places that were looked at it may be a little larger.
       report.error = 1.05 * mesh->error;
       report.cell = cell;
@@ -175,11 +172,15 @@ class Mesher {
       } else {
         in_vain = 0;
         best = result_;
+        best_split = first_split_;
       }
       const double off = std::max(report.error, report.error_back);
       cell *= off > report.error_asked ? std::clamp(0.9 * report.error_asked / off, 0.5, 0.8) : 0.7;
     }
-    if (best && !what_differs(report).empty()) result_ = *std::move(best);
+    if (best && !what_differs(report).empty()) {
+      result_ = *std::move(best);
+      first_split_ = best_split;
+    }
     if (report.error_back < 0) measure_back(given);
   }
 
@@ -234,7 +235,11 @@ class Mesher {
   }
 
   void count_self_intersections() {
-    const SelfIntersections found = self_intersections(result_.mesh, static_cast<std::size_t>(-1), monitor_);
+    const bool grid =
+        result_.report.cell > 0 && options_.keep_faces == 100 && !result_.mesh.triangles.empty();
+    const SelfIntersections found =
+        self_intersections(grid ? near_splits(result_.mesh, first_split_, result_.report.cell) : result_.mesh,
+                           static_cast<std::size_t>(-1), monitor_);
     result_.report.self_intersections = static_cast<std::int64_t>(found.pairs.size());
   }
 
@@ -255,6 +260,7 @@ class Mesher {
   Monitor& monitor_;
   double extent_ = 0;
   BallMesh result_;
+  std::int32_t first_split_ = 0;  // of a grid
 };
 
 }  // namespace

@@ -55,15 +55,15 @@ struct BallMesh {
 /// of
 ///   balls twice as large is twice as large, in general position. It does not depend on the number of
 ///   threads.
-/// - A grid rounds the bottoms of sharp notches off: report.error_back says by how much. With refine_notches
-/// its cells
-///   become smaller until that is within the error, too, or two rounds bring no progress.
+/// - A grid has vertices in the bottoms of notches, but may round sharp ones off: report.error_back says by
+/// how
+///   much. With refine_notches its cells become smaller until that is within the error, too, or two rounds
+///   bring no progress.
 /// - Simplification keeps closed manifolds what they are. The distances that are reported are measured again,
 /// and may
 ///   be above the error.
 /// - Patches of thin parts may cross each other: report.self_intersections. Triangles of a grid lie in
-/// different
-///   tetrahedra and do not cross.
+///   different tetrahedra; only in notches they may cross.
 /// - A skin surface contains the balls and touches them. Its topology is that of balls larger by
 /// 1 / sqrt(shrink):
 ///   report.euler_meshed. `error` is not what it is made to; report.error and error_back say how far it is

@@ -20,7 +20,7 @@ struct BallMesh {
   BallMeshOptions options;
 
   static void declare(NodeDecl<BallMesh>& d) {
-    d.id("BallMesh", 2).summary("A closed triangle mesh of the boundary of a union of balls.");
+    d.id("BallMesh", 3).summary("A closed triangle mesh of the boundary of a union of balls.");
     d.doc(
         "The mesh is a closed manifold whose faces look outwards, with one component for every component and "
         "every "
@@ -47,7 +47,8 @@ struct BallMesh {
               {BallMeshMethod::grid, "grid",
                "tetrahedra on the cells of a grid, refined until distance and topology are right or two "
                "rounds bring "
-               "nothing: ten times the triangles, none of which cross"},
+               "nothing, with vertices in the bottoms of notches: ten times the triangles, of which few "
+               "cross"},
               {BallMeshMethod::skin, "skin",
                "the skin surface around the balls (CGAL), smooth where spheres meet, for comparison: it "
                "contains the balls, its "
@@ -75,9 +76,9 @@ struct BallMesh {
         .doc("count the pairs of triangles that cross; takes about as long as the mesh");
     d.param("refine_notches", &BallMesh::options, &BallMeshOptions::refine_notches)
         .doc(
-            "method grid: refine until the bottoms of notches are within the error, too, which takes about "
-            "twice the "
-            "triangles; otherwise the report says how far they are");
+            "method grid: refine where vertices in the bottoms of notches do not bring these within the "
+            "error; "
+            "otherwise the report says how far they are");
     d.param("shrink", &BallMesh::options, &BallMeshOptions::shrink)
         .unit("1")
         .at_least(0.05)

@@ -113,7 +113,9 @@ double mesh_gap(const Balls& balls, const TriangleMesh& mesh, Monitor& monitor) 
       mesh.triangles.size(), block, monitor, 0, 1, [&](std::size_t b, std::size_t first, std::size_t last) {
         const auto look_at = [&](Vec3 p) {
           const auto depth = [&](std::size_t i) { return distance(p, balls.centers[i]) - balls.radii[i]; };
-          most[b] = std::max(most[b], std::abs(inside.smallest(p, infinity, -infinity, depth)));
+          const double off = std::abs(inside.smallest(p, infinity, -infinity, depth));
+          most[b] = std::max(most[b], off);
+          return off;
         };
         for (std::size_t t = first; t < last; ++t) {
           const auto corner = [&](std::size_t k) {
@@ -124,8 +126,11 @@ double mesh_gap(const Balls& balls, const TriangleMesh& mesh, Monitor& monitor) 
           for (std::size_t k = 0; k < 3; ++k) {
             look_at(corner(k));
             look_at(0.5 * corner(k) + (1.0 / 6) * sum);
-            if (mesh.triangles[t][k] < mesh.triangles[t][(k + 1) % 3])
-              look_at(0.5 * (corner(k) + corner(k + 1)));
+            if (mesh.triangles[t][k] > mesh.triangles[t][(k + 1) % 3]) continue;
+            // An edge from one sphere to another is farthest off where it leaves the first, anywhere.
+            const Vec3 p = corner(k), way = corner(k + 1) - p;
+            if (look_at(p + 0.5 * way) < 0.5 * most[b]) continue;
+            for (const double part : {0.125, 0.25, 0.375, 0.625, 0.75, 0.875}) look_at(p + part * way);
           }
         }
       });

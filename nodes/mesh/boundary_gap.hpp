@@ -20,7 +20,8 @@ double boundary_gap(const Balls& balls, const PowerDiagram& diagram, const Simpl
                     const TriangleMesh& mesh, double spacing, double at_least, Monitor& monitor);
 
 /// The largest distance of the mesh from the boundary of the union that is found at its corners, in the
-/// middle of its edges and triangles, and half way from there to the corners; model units.
+/// middle of its edges and triangles, half way from there to the corners, and at the eighths of those edges
+/// of which the middle is far; model units.
 double mesh_gap(const Balls& balls, const TriangleMesh& mesh, Monitor& monitor);
 
 }  // namespace ballflow::geometry

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -11,6 +12,7 @@
 
 #include "base/for_each_block.hpp"
 #include "base/index.hpp"
+#include "mesh/creases.hpp"
 #include "search/box_tree.hpp"
 
 namespace ballflow::geometry {
@@ -70,7 +72,9 @@ class Grid {
     number_edges();
     if (static_cast<double>(first_vertex_.back()) > 0.6 * static_cast<double>(most_faces)) return {};
     place_vertices();
-    return triangles();
+    GridMesh mesh = triangles();
+    if (mesh.mesh.triangles.size() > most_faces) return {};
+    return mesh;
   }
 
  private:
@@ -188,8 +192,9 @@ class Grid {
     }
   }
 
-  /// Where the way from p, in `ball`, to q leaves the union: a fraction of it.
-  double exit(Vec3 p, Vec3 q, std::int32_t ball, const Nearby& balls) const {
+  /// Where the way from p, in `ball`, to q leaves the union: a fraction of it. `ball` becomes the one it
+  /// leaves last.
+  double exit(Vec3 p, Vec3 q, std::int32_t& ball, const Nearby& balls) const {
     const Vec3 d = q - p;
     const double dd = squared_length(d);
     double t = 0;
@@ -219,6 +224,7 @@ class Grid {
 
   void place_vertices() {
     vertices_.resize(first_vertex_.back());
+    spheres_.resize(first_vertex_.back());
     for_each_block(
         at(count_[2]), 4, monitor_, 0.4, 0.6, [&](std::size_t, std::size_t first, std::size_t last) {
           Nearby balls;
@@ -234,7 +240,8 @@ class Grid {
                 ball = corners_[b].ball;
               }
               nearby(x, y, z, bits, balls);
-              vertices_[next++] = p + exit(p, q, ball, balls) * (q - p);
+              vertices_[next] = p + exit(p, q, ball, balls) * (q - p);
+              spheres_[next++] = ball;
             });
           }
         });
@@ -250,14 +257,14 @@ class Grid {
     });
   }
 
-  std::optional<GridMesh> triangles() {
+  GridMesh triangles() {
     constexpr std::size_t block = 4;
     struct Part {
       std::vector<Triangle> triangles;
       double error = 0;
     };
     std::vector<Part> parts(blocks_of(at(count_[2] - 1), block));
-    for_each_block(at(count_[2] - 1), block, monitor_, 0.6, 1,
+    for_each_block(at(count_[2] - 1), block, monitor_, 0.6, 0.8,
                    [&](std::size_t b, std::size_t first, std::size_t last) {
                      LayerEdges low, high;
                      table_of(static_cast<std::int64_t>(first), low);
@@ -278,6 +285,10 @@ class Grid {
       all.insert(all.end(), part.triangles.begin(), part.triangles.end());
       result.error = std::max(result.error, part.error);
     }
+    result.first_split = static_cast<std::int32_t>(vertices_.size());
+    PartMonitor creasing(monitor_, 0.8, 1);
+    result.error =
+        std::max(result.error, add_creases(balls_, tree_, spheres_, cell_, vertices_, all, creasing));
     result.mesh = {std::move(vertices_), std::move(all)};
     return result;
   }
@@ -303,12 +314,18 @@ class Grid {
         };
         const std::size_t begin = out.size();
         for (const auto& t : tetrahedra) cut(t, mask, vertex, out);
+        // Those between spheres are split, and measured then.
+        const auto on_one = [&](const Triangle& t) {
+          return spheres_[at(t[0])] == spheres_[at(t[1])] && spheres_[at(t[0])] == spheres_[at(t[2])];
+        };
+        if (std::none_of(out.begin() + static_cast<std::ptrdiff_t>(begin), out.end(), on_one)) continue;
         nearby(x, y, z, 7, balls);
         // Where balls overlap much, many of them must be asked how deep a place is.
         look((out.size() - begin) * (256 + balls_.size()));
         const bool few = deepest_in_cell(0.5 * (position(x, y, z) + position(x + 1, y + 1, z + 1)), deepest);
-        for (std::size_t f = begin; f < out.size(); ++f)
-          measure(out[f], balls, few ? &deepest : nullptr, error);
+        for (std::size_t f = begin; f < out.size(); ++f) {
+          if (on_one(out[f])) measure(out[f], balls, few ? &deepest : nullptr, error);
+        }
       }
     }
   }
@@ -399,6 +416,7 @@ class Grid {
   std::unique_ptr<Corner[]> corners_;
   std::vector<std::size_t> first_vertex_;  // of a layer
   std::vector<Vec3> vertices_;
+  std::vector<std::int32_t> spheres_;  // on which the vertices are
 };
 
 }  // namespace

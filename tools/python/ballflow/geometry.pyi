@@ -375,7 +375,8 @@ def ball_mesh(
               decide, radii change by at most 1e-6 of the longest edge; where that does not help there is a
               grid
             grid: tetrahedra on the cells of a grid, refined until distance and topology are right or two
-              rounds bring nothing: ten times the triangles, none of which cross
+              rounds bring nothing, with vertices in the bottoms of notches: ten times the triangles, of
+              which few cross
             skin: the skin surface around the balls (CGAL), smooth where spheres meet, for comparison: it
               contains the balls, its topology is that of balls larger by 1 / sqrt(shrink), and `error` does
               not steer it
@@ -387,8 +388,8 @@ def ball_mesh(
         most_faces (integer, default 20000000, 1, >= 1, <= 1000000000): a mesh of more faces is refused
         self_intersections (boolean, default true): count the pairs of triangles that cross; takes about as
           long as the mesh
-        refine_notches (boolean, default false): method grid: refine until the bottoms of notches are within
-          the error, too, which takes about twice the triangles; otherwise the report says how far they are
+        refine_notches (boolean, default false): method grid: refine where vertices in the bottoms of
+          notches do not bring these within the error; otherwise the report says how far they are
         shrink (number, default 0.5, 1, >= 0.05, <= 0.95): method skin: towards 1 the boundary of the union,
           the less the more notches and gaps it fills
 
