@@ -43,7 +43,7 @@ foreach(folder graphs schemas)
 endforeach()
 
 # What processes that run nodes in Python need.
-foreach(file _artifact _errors _node _source _worker)
+foreach(file _artifact _errors _failures _node _source _source_text _worker)
   install(FILES tools/python/ballflow/${file}.py DESTINATION ${CMAKE_INSTALL_DATADIR}/ballflow/python/ballflow)
 endforeach()
 
