@@ -28,6 +28,24 @@ std::string FileState::memo_name() const {
   return sha256(writer.bytes()).hex();
 }
 
+void encode(const FileState& state, RecordWriter& writer) {
+  writer.number(state.device);
+  writer.number(state.inode);
+  writer.number(state.size);
+  writer.number(state.modified);
+  writer.number(state.changed);
+}
+
+FileState decode_state(RecordReader& reader) {
+  FileState state;
+  reader.number(state.device);
+  reader.number(state.inode);
+  reader.number(state.size);
+  reader.number(state.modified);
+  reader.number(state.changed);
+  return state;
+}
+
 std::string distrust(const struct stat& status) {
   if (status.st_uid != ::geteuid() && status.st_uid != 0) {
     return "belongs to another user (id " + std::to_string(status.st_uid) + ")";

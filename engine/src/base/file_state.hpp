@@ -8,6 +8,9 @@
 
 namespace ballflow {
 
+class RecordReader;
+class RecordWriter;
+
 inline std::int64_t nanoseconds(const timespec& time) { return time.tv_sec * 1'000'000'000 + time.tv_nsec; }
 
 /// What tells one state of a file from another without reading it.
@@ -24,6 +27,10 @@ struct FileState {
   /// Where the digest of the file is kept, in files/ of the store.
   std::string memo_name() const;
 };
+
+/// Device, inode, size and both times, in this order.
+void encode(const FileState& state, RecordWriter& writer);
+FileState decode_state(RecordReader& reader);
 
 /// Why the owner or the mode of a file or folder makes it unfit for a cache; empty when they do not.
 std::string distrust(const struct stat& status);

@@ -34,24 +34,6 @@ std::string search_path() {
   return folders == nullptr ? "" : folders;
 }
 
-void encode(const FileState& state, RecordWriter& writer) {
-  writer.number(state.device);
-  writer.number(state.inode);
-  writer.number(state.size);
-  writer.number(state.modified);
-  writer.number(state.changed);
-}
-
-FileState decode_state(RecordReader& reader) {
-  FileState state;
-  reader.number(state.device);
-  reader.number(state.inode);
-  reader.number(state.size);
-  reader.number(state.modified);
-  reader.number(state.changed);
-  return state;
-}
-
 /// Reads what encode() wrote.
 LibraryOutline decode_outline(RecordReader& reader) {
   constexpr std::size_t smallest_type = 3 * 4, smallest_node = 3 * 4 + 1, smallest_port = 3 * 4;

@@ -69,11 +69,7 @@ std::string encode(const Memo& memo) {
   RecordWriter writer;
   writer.raw(memo_magic);
   writer.number(memo_format);
-  writer.number(memo.state.device);
-  writer.number(memo.state.inode);
-  writer.number(memo.state.size);
-  writer.number(memo.state.modified);
-  writer.number(memo.state.changed);
+  encode(memo.state, writer);
   writer.digest(memo.digest);
   return std::move(writer).sealed();
 }
@@ -83,13 +79,8 @@ std::optional<Memo> decode_memo(std::string_view bytes) {
   if (!reader.unseal() || reader.raw(memo_magic.size()) != memo_magic) return std::nullopt;
   std::uint32_t format = 0;
   Memo memo;
-  FileState& stored = memo.state;
   reader.number(format);
-  reader.number(stored.device);
-  reader.number(stored.inode);
-  reader.number(stored.size);
-  reader.number(stored.modified);
-  reader.number(stored.changed);
+  memo.state = decode_state(reader);
   reader.digest(memo.digest);
   if (!reader.at_end() || format != memo_format) return std::nullopt;
   return memo;
